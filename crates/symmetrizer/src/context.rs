@@ -1,0 +1,119 @@
+//! What every long call carries: the seed, a sink for progress, a cancel token, the warnings.
+//!
+//! The library has no clock, no terminal and no environment; whoever calls it hears of stages
+//! through [`Event`]s and may time or draw them.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rand_pcg::Pcg64;
+use rand_pcg::rand_core::SeedableRng;
+
+use crate::error::{Error, Result, Warning};
+
+/// A sticky request to stop; clones share it, any thread may set it.
+#[derive(Debug, Clone, Default)]
+pub struct CancelToken(Arc<AtomicBool>);
+
+impl CancelToken {
+    /// Asks every call that carries this token to return [`Error::Cancelled`] soon.
+    pub fn cancel(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether [`CancelToken::cancel`] was called.
+    pub fn is_cancelled(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+/// What a stage tells the caller.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Event<'a> {
+    /// A stage begins.
+    Begin(&'a str),
+    /// The running stage is this far, in 0..=1, never decreasing.
+    Progress(f64),
+    /// The running stage ends.
+    End(&'a str),
+}
+
+/// Seed, progress sink, cancel token and warnings of one job.
+pub struct Context<'a> {
+    seed: u64,
+    cancel: CancelToken,
+    sink: Box<dyn FnMut(Event<'_>) + 'a>,
+    warnings: Vec<Warning>,
+}
+
+impl Default for Context<'_> {
+    fn default() -> Self {
+        Self::new(0)
+    }
+}
+
+impl<'a> Context<'a> {
+    /// A context without a listener.
+    pub fn new(seed: u64) -> Self {
+        Self::with_sink(seed, CancelToken::default(), |_| {})
+    }
+
+    /// A context whose stages report to `sink` and stop when `cancel` is set.
+    pub fn with_sink(seed: u64, cancel: CancelToken, sink: impl FnMut(Event<'_>) + 'a) -> Self {
+        Self {
+            seed,
+            cancel,
+            sink: Box::new(sink),
+            warnings: Vec::new(),
+        }
+    }
+
+    /// The job's seed.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// A generator of its own for the stage `name`: the same seed and name give the same stream on
+    /// every machine, whatever other stages draw.
+    pub fn rng(&self, name: &str) -> Pcg64 {
+        // FNV-1a of the name, so that streams differ between stages.
+        let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |h, b| {
+            (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3)
+        });
+        Pcg64::seed_from_u64(self.seed ^ hash)
+    }
+
+    /// Runs `work` as the stage `name`, with its begin and end events.
+    pub fn stage<T>(&mut self, name: &str, work: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
+        self.check()?;
+        (self.sink)(Event::Begin(name));
+        let result = work(self);
+        (self.sink)(Event::End(name));
+        result
+    }
+
+    /// Reports how far the running stage is, and fails with [`Error::Cancelled`] when asked to stop.
+    pub fn progress(&mut self, fraction: f64) -> Result<()> {
+        self.check()?;
+        (self.sink)(Event::Progress(fraction.clamp(0.0, 1.0)));
+        Ok(())
+    }
+
+    /// Fails with [`Error::Cancelled`] when asked to stop.
+    pub fn check(&self) -> Result<()> {
+        if self.cancel.is_cancelled() {
+            return Err(Error::Cancelled);
+        }
+        Ok(())
+    }
+
+    /// Keeps a warning for the report.
+    pub fn warn(&mut self, text: impl Into<String>) {
+        self.warnings.push(Warning(text.into()));
+    }
+
+    /// The warnings so far, oldest first.
+    pub fn warnings(&self) -> &[Warning] {
+        &self.warnings
+    }
+}

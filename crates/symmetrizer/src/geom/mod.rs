@@ -1,0 +1,38 @@
+//! Points, vectors and matrices in f64, and small linear algebra that several floors share.
+
+/// A point of space; 2D shapes live at z = 0.
+pub type Point = nalgebra::Point3<f64>;
+/// A vector of space.
+pub type Vector = nalgebra::Vector3<f64>;
+/// A 3x3 matrix.
+pub type Matrix3 = nalgebra::Matrix3<f64>;
+
+/// The cross-product matrix: `skew(a) * b == a x b`.
+pub fn skew(a: &Vector) -> Matrix3 {
+    a.cross_matrix()
+}
+
+/// Eigenvalues in increasing algebraic order with their unit eigenvectors as columns.
+pub fn sorted_eigen(m: &Matrix3) -> (Vector, Matrix3) {
+    let e = m.symmetric_eigen();
+    let mut order = [0, 1, 2];
+    order.sort_by(|&a, &b| e.eigenvalues[a].total_cmp(&e.eigenvalues[b]));
+    let values = Vector::from_fn(|i, _| e.eigenvalues[order[i]]);
+    let vectors = Matrix3::from_fn(|r, c| e.eigenvectors[(r, order[c])]);
+    (values, vectors)
+}
+
+/// Any unit vector orthogonal to the unit vector `n`.
+pub fn any_orthogonal(n: &Vector) -> Vector {
+    let axis = if n.x.abs() < 0.6 {
+        Vector::x()
+    } else {
+        Vector::y()
+    };
+    n.cross(&axis).normalize()
+}
+
+/// The rotation `exp([omega])` about the axis omega by |omega| radians (Rodrigues).
+pub fn exp_rotation(omega: &Vector) -> Matrix3 {
+    nalgebra::Rotation3::new(*omega).into_inner()
+}

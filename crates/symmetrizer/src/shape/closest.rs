@@ -1,0 +1,104 @@
+//! Closest points on a surface: parry's bounding-volume hierarchy behind our own types.
+
+use parry3d_f64::math::Vector as GlamVector;
+use parry3d_f64::query::{PointQuery, PointQueryWithLocation};
+use parry3d_f64::shape::{TriMesh, TrianglePointLocation};
+
+use crate::geom::{Point, Vector};
+use crate::shape::surface::{Surface, SurfacePoint};
+
+/// The answer to a closest-point query.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hit {
+    /// The closest point as a surface point.
+    pub at: SurfacePoint,
+    /// Its position.
+    pub point: Point,
+    /// Its distance from the query.
+    pub distance: f64,
+}
+
+/// Finds closest points on a fixed state of a surface.
+pub struct ClosestPoint {
+    tree: TriMesh,
+    face_normals: Vec<Vector>,
+}
+
+impl ClosestPoint {
+    /// Builds the hierarchy over the triangles of `surface` as it is now.
+    pub fn new(surface: &Surface) -> Self {
+        let vertices = surface.positions.iter().map(to_glam).collect();
+        let tree = TriMesh::new(vertices, surface.triangles.to_vec())
+            .expect("a working surface has triangles with valid indices");
+        Self {
+            tree,
+            face_normals: surface.face_normals.clone(),
+        }
+    }
+
+    /// The closest point within `max_distance`, on any face.
+    pub fn nearest(&self, query: &Point, max_distance: f64) -> Option<Hit> {
+        self.search(query, max_distance, |_| true)
+    }
+
+    /// The closest point within `max_distance` among faces whose normal makes an angle with
+    /// `normal` of cosine at least `min_cos`: never the far side of a thin ear.
+    pub fn nearest_facing(
+        &self,
+        query: &Point,
+        normal: &Vector,
+        min_cos: f64,
+        max_distance: f64,
+    ) -> Option<Hit> {
+        self.search(query, max_distance, |face| {
+            self.face_normals[face as usize].dot(normal) >= min_cos
+        })
+    }
+
+    fn search(
+        &self,
+        query: &Point,
+        max_distance: f64,
+        accepts: impl Fn(u32) -> bool,
+    ) -> Option<Hit> {
+        let q = to_glam(query);
+        let (face, (distance, (point, location))) = self.tree.bvh().find_best(
+            max_distance,
+            |node, _| node.aabb().distance_to_local_point(q, true),
+            |face, _| {
+                if !accepts(face) {
+                    return None;
+                }
+                let (projection, location) = self
+                    .tree
+                    .triangle(face)
+                    .project_local_point_and_get_location(q, false);
+                let cost = (projection.point - q).length();
+                Some((cost, (projection.point, location)))
+            },
+        )?;
+        Some(Hit {
+            at: SurfacePoint {
+                face,
+                bary: barycentric(&location),
+            },
+            point: Point::new(point.x, point.y, point.z),
+            distance,
+        })
+    }
+}
+
+fn barycentric(location: &TrianglePointLocation) -> [f64; 3] {
+    match location {
+        TrianglePointLocation::OnVertex(i) => {
+            let mut b = [0.0; 3];
+            b[*i as usize] = 1.0;
+            b
+        }
+        other => other.barycentric_coordinates().unwrap_or([1.0, 0.0, 0.0]),
+    }
+}
+
+fn to_glam(p: &Point) -> GlamVector {
+    GlamVector::new(p.x, p.y, p.z)
+}

@@ -1,0 +1,150 @@
+//! The document mesh: vertices and polygons in the file's order, nothing merged or dropped.
+
+use crate::error::{Error, Result};
+use crate::geom::Point;
+
+/// Polygons as one list of corners, `starts[f]..starts[f + 1]` for polygon f.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Polygons {
+    starts: Vec<u32>,
+    corners: Vec<u32>,
+}
+
+impl Default for Polygons {
+    fn default() -> Self {
+        Self {
+            starts: vec![0],
+            corners: Vec::new(),
+        }
+    }
+}
+
+impl Polygons {
+    /// Appends a polygon.
+    pub fn push(&mut self, polygon: &[u32]) {
+        self.corners.extend_from_slice(polygon);
+        self.starts.push(self.corners.len() as u32);
+    }
+
+    /// The number of polygons.
+    pub fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The vertices of polygon `f`.
+    pub fn get(&self, f: usize) -> &[u32] {
+        &self.corners[self.starts[f] as usize..self.starts[f + 1] as usize]
+    }
+
+    /// All polygons in order.
+    pub fn iter(&self) -> impl Iterator<Item = &[u32]> {
+        (0..self.len()).map(|f| self.get(f))
+    }
+}
+
+impl FromIterator<[u32; 3]> for Polygons {
+    fn from_iter<I: IntoIterator<Item = [u32; 3]>>(triangles: I) -> Self {
+        let mut polygons = Self::default();
+        for t in triangles {
+            polygons.push(&t);
+        }
+        polygons
+    }
+}
+
+/// A polygon mesh as its file has it: vertex and face order kept, loose vertices kept.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Mesh {
+    /// Vertex positions in model units, in file order.
+    pub positions: Vec<Point>,
+    /// The faces in file order; corners are 0-based vertex indices.
+    pub polygons: Polygons,
+}
+
+impl Mesh {
+    /// A mesh of triangles.
+    pub fn from_triangles(positions: Vec<Point>, triangles: Vec<[u32; 3]>) -> Self {
+        Self {
+            positions,
+            polygons: triangles.into_iter().collect(),
+        }
+    }
+
+    /// Fails where the mesh cannot be worked on: empty, no faces, an index out of range, a face
+    /// with fewer than three corners, a coordinate that is not finite. Names the first such place.
+    pub fn check(&self) -> Result<()> {
+        if self.positions.is_empty() {
+            return Err(Error::input(
+                "the mesh has no vertices",
+                "is this the right file?",
+            ));
+        }
+        if self.polygons.is_empty() {
+            return Err(Error::input(
+                format!(
+                    "the mesh has {} vertices but no faces",
+                    self.positions.len()
+                ),
+                "a point cloud must be meshed first",
+            ));
+        }
+        if let Some(v) = self
+            .positions
+            .iter()
+            .position(|p| !p.iter().all(|c| c.is_finite()))
+        {
+            return Err(Error::input(
+                format!("vertex {v} (counted from 0) has a coordinate that is not a finite number"),
+                "remove or repair that vertex",
+            ));
+        }
+        let n = self.positions.len();
+        for (f, polygon) in self.polygons.iter().enumerate() {
+            if polygon.len() < 3 {
+                return Err(Error::input(
+                    format!("face {f} (counted from 0) has {} corners", polygon.len()),
+                    "a face needs at least three",
+                ));
+            }
+            if let Some(&v) = polygon.iter().find(|&&v| v as usize >= n) {
+                return Err(Error::input(
+                    format!(
+                        "face {f} (counted from 0) names vertex {v}, but there are only {n} vertices"
+                    ),
+                    "the file is truncated or its face list is damaged",
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// Triangles by fan triangulation of the polygons, each with the index of its polygon.
+    pub fn triangles(&self) -> impl Iterator<Item = ([u32; 3], u32)> {
+        self.polygons.iter().enumerate().flat_map(|(f, polygon)| {
+            (1..polygon.len().saturating_sub(1))
+                .map(move |k| ([polygon[0], polygon[k], polygon[k + 1]], f as u32))
+        })
+    }
+
+    /// The bounding-box diagonal D of the vertices that faces use, model units; for reporting only,
+    /// because it changes when the shape is rotated.
+    pub fn diagonal(&self) -> f64 {
+        let mut low = Point::from([f64::INFINITY; 3]);
+        let mut high = Point::from([f64::NEG_INFINITY; 3]);
+        for &v in self.polygons.iter().flatten() {
+            let p = &self.positions[v as usize];
+            low = low.inf(p);
+            high = high.sup(p);
+        }
+        if low.x > high.x {
+            0.0
+        } else {
+            (high - low).norm()
+        }
+    }
+}

@@ -1,0 +1,10 @@
+//! Shapes: the document mesh with the file's own structure, the working surface the stages run
+//! on, points on a surface, closest points, curvature, files, generated models.
+
+pub mod closest;
+pub mod mesh;
+pub mod surface;
+
+pub use closest::{ClosestPoint, Hit};
+pub use mesh::Mesh;
+pub use surface::{Surface, SurfacePoint};
