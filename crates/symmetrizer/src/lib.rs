@@ -3,9 +3,16 @@
 //! The modules stand on floors and use only what is below them; a test keeps it so
 //! (`tests/floors.rs`). Read upwards, they are the pipeline of the paper.
 
+pub mod cluster;
 pub mod context;
+pub mod deform;
+pub mod detect;
 pub mod error;
 pub mod geom;
+pub mod optimize;
+pub mod pair;
+pub mod patch;
+pub mod sample;
 pub mod shape;
 pub mod transform;
 

@@ -1,5 +1,9 @@
 //! Points, vectors and matrices in f64, and small linear algebra that several floors share.
 
+pub mod nearest;
+
+pub use nearest::PointIndex;
+
 /// A point of space; 2D shapes live at z = 0.
 pub type Point = nalgebra::Point3<f64>;
 /// A vector of space.

@@ -2,6 +2,7 @@
 //! on, points on a surface, closest points, curvature, files, generated models.
 
 pub mod closest;
+pub mod curvature;
 pub mod mesh;
 pub mod surface;
 

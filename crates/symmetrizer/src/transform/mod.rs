@@ -1,5 +1,11 @@
 //! Isometries, the space they form, and the closed forms of section 3 and appendix A.
 
+pub mod displacement;
 pub mod isometry;
+pub mod optimal;
+pub mod space;
 
-pub use isometry::Isometry;
+pub use displacement::displacements;
+pub use isometry::{Isometry, Plane};
+pub use optimal::{Ambient, Correspondence, MirrorFit, optimal_mirror};
+pub use space::TransformSpace;

@@ -1,0 +1,83 @@
+//! Deformation: points are pulled towards targets, the shape follows with as little change as
+//! possible (section 4.2). Nothing here has heard of symmetry.
+
+pub mod primo;
+pub mod smooth;
+pub mod solver;
+
+use crate::context::Context;
+use crate::error::Result;
+use crate::geom::{Point, Vector};
+use crate::shape::{Surface, SurfacePoint};
+
+pub use primo::Primo;
+
+/// A soft positional constraint at a point of the rest surface.
+#[derive(Debug, Clone, Copy)]
+pub struct Pull {
+    /// Which point of the surface.
+    pub at: SurfacePoint,
+    /// Where it should go, working coordinates.
+    pub target: Point,
+    /// Weight w of w |x - target|^2 against the deformation energy, dimensionless (area over
+    /// squared stiffness length, FORMATS.md).
+    pub weight: f64,
+}
+
+/// What a call to [`Deformer::deform`] did.
+#[derive(Debug, Clone, Copy)]
+pub struct Deformed {
+    /// Deformation energy after the call, see [`Deformer::energy`].
+    pub energy: f64,
+    /// rms motion of the pulled points during the call, fraction of L.
+    pub motion: f64,
+}
+
+/// A shape that resists deformation. The rest shape never changes, so the energy always measures
+/// the deviation from the input.
+pub trait Deformer {
+    /// One step towards the targets of `pulls`.
+    ///
+    /// # Errors
+    /// [`crate::Error::Numerical`] where the system cannot be solved, [`crate::Error::Cancelled`].
+    fn deform(&mut self, pulls: &[Pull], ctx: &mut Context<'_>) -> Result<Deformed>;
+
+    /// Stiffness of each face of the rest surface, as a multiple of the default (1).
+    ///
+    /// # Errors
+    /// [`crate::Error::Params`] for a wrong count or a value that is not positive and finite.
+    fn set_stiffness(&mut self, per_face: &[f64]) -> Result<()>;
+
+    /// Faces of the rest surface that must not move.
+    ///
+    /// # Errors
+    /// [`crate::Error::Params`] for a wrong count.
+    fn set_fixed(&mut self, faces: &[bool]) -> Result<()>;
+
+    /// The energy per area: about the mean square strain (0.01 is 10 % stretch everywhere),
+    /// dimensionless, 0 under rigid motion.
+    fn energy(&self) -> f64;
+
+    /// Vertex positions of the surface as it is deformed now.
+    fn positions(&self) -> Vec<Point>;
+
+    /// Where points of the surface are now, without computing the rest of it.
+    fn places(&self, at: &[SurfacePoint]) -> Vec<Point>;
+
+    /// The deformation as a value that [`Deformer::restore`] takes.
+    fn state(&self) -> State;
+
+    /// Goes back to an earlier state of the same deformer.
+    fn restore(&mut self, state: &State);
+
+    /// The rest surface.
+    fn rest(&self) -> &Surface;
+}
+
+/// A deformer's state: a rigid motion (rotation vector columns, translation) for each of its
+/// elements.
+#[derive(Debug, Clone)]
+pub struct State(pub(crate) Vec<primo::motion::Motion>);
+
+/// Twist (omega, v) per element, as the solver returns it.
+pub(crate) type Twist = (Vector, Vector);

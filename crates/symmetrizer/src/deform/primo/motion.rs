@@ -1,0 +1,48 @@
+//! The rigid motion of one element, about its own centre.
+
+use crate::geom::{Matrix3, Point, Vector, exp_rotation};
+
+/// x -> R (x - c) + y: the rest centre c moves to y, the element turns by R about it.
+#[derive(Debug, Clone, Copy)]
+pub struct Motion {
+    /// Rotation R.
+    pub rotation: Matrix3,
+    /// Rest centre c.
+    pub rest_center: Point,
+    /// Present centre y.
+    pub center: Point,
+}
+
+impl Motion {
+    /// At rest about `center`.
+    pub fn rest(center: Point) -> Self {
+        Self {
+            rotation: Matrix3::identity(),
+            rest_center: center,
+            center,
+        }
+    }
+
+    /// Where the rest point `x` is now.
+    pub fn apply(&self, x: &Point) -> Point {
+        self.center + self.rotation * (x - self.rest_center)
+    }
+
+    /// After the twist (omega, v) about the present centre: turned by exp [omega], moved by v.
+    /// The exponential keeps the motion rigid; the helical update of the twist diverges for large
+    /// steps (METHOD 3.2).
+    pub fn twisted(&self, omega: &Vector, v: &Vector) -> Self {
+        // Left as it accumulates, the product of many rotations would drift from orthogonality.
+        let turned = nalgebra::Rotation3::from_matrix_eps(
+            &(exp_rotation(omega) * self.rotation),
+            1e-14,
+            2,
+            nalgebra::Rotation3::from_matrix_unchecked(exp_rotation(omega) * self.rotation),
+        );
+        Self {
+            rotation: turned.into_inner(),
+            rest_center: self.rest_center,
+            center: self.center + v,
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! Range queries among fixed points: kiddo's k-d tree with answers in one order.
+
+use kiddo::{ImmutableKdTree, SquaredEuclidean};
+
+/// An index over points of K coordinates.
+pub struct PointIndex<const K: usize> {
+    /// `None` for an empty set, which kiddo refuses.
+    tree: Option<ImmutableKdTree<f64, K>>,
+}
+
+impl<const K: usize> PointIndex<K> {
+    /// Indexes `points`; all coordinates must be finite.
+    pub fn new(points: &[[f64; K]]) -> Self {
+        Self {
+            tree: ImmutableKdTree::new_from_slice(points).ok(),
+        }
+    }
+
+    /// Indices of the points closer than `radius` to `x`, increasing, so that sums over them do
+    /// not depend on the tree's layout.
+    pub fn within(&self, x: &[f64; K], radius: f64) -> Vec<u32> {
+        let Some(tree) = &self.tree else {
+            return Vec::new();
+        };
+        let mut found: Vec<u32> = tree
+            .query(x)
+            .within::<SquaredEuclidean<f64>>(radius * radius)
+            .unsorted()
+            .execute()
+            .iter()
+            .map(|hit| hit.item as u32)
+            .collect();
+        found.sort_unstable();
+        found
+    }
+
+    /// Index and squared distance of the point nearest to `x`.
+    pub fn nearest(&self, x: &[f64; K]) -> Option<(u32, f64)> {
+        let hit = self
+            .tree
+            .as_ref()?
+            .query(x)
+            .nearest_one::<SquaredEuclidean<f64>>()
+            .execute();
+        Some((hit.item as u32, hit.distance))
+    }
+}

@@ -1,0 +1,12 @@
+//! Section 4: samples glide, clusters contract, clusters merge, the rest follows.
+
+pub mod contract;
+pub mod finish;
+pub mod glide;
+pub mod merge;
+pub mod moving;
+pub mod params;
+pub mod schedule;
+
+pub use params::OptimizeParams;
+pub use schedule::{Optimized, Outcome, Step, optimize};

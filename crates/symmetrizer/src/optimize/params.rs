@@ -1,0 +1,92 @@
+//! Parameters of the optimization.
+
+use crate::error::{Error, Result};
+
+/// How far, how fast and in what order symmetry is enhanced (section 4.2).
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct OptimizeParams {
+    /// Time step dt. 0.3, ours; the paper took 0.1. Constraint weights go with 1/dt, so the result
+    /// does not depend on it (METHOD 3.5).
+    pub step: f64,
+    /// Steps between two pairings. 5, paper section 4.2.
+    pub redetect_every: usize,
+    /// Steps that contract each cluster before merging. 5, ours: merging and the last contraction
+    /// go on with it.
+    pub contract_steps: usize,
+    /// Steps of one merge at the most. 30, ours.
+    pub merge_steps: usize,
+    /// Two clusters are merged when their mirrors are this close, rms displacement over both
+    /// supports, fraction of L. 0.01, ours (FINDINGS).
+    pub merged_distance: f64,
+    /// Largest angle in degrees between mirrors that are merged. 65, ours (FINDINGS; the bunny's
+    /// are 55 apart).
+    pub merge_angle: f64,
+    /// Clusters lower than this share of the highest are left alone. 0.2, ours.
+    pub min_height: f64,
+    /// Steps of the last contraction under the final mirror. 15, ours.
+    pub final_steps: usize,
+    /// Rounds of the finish at full resolution; 0 for none. 8, ours.
+    pub finish_rounds: usize,
+    /// Smoothing length of the finish, fraction of L: detail below it keeps its own form. 0.012,
+    /// ours.
+    pub finish_length: f64,
+    /// Stop when the deformation energy (about the mean square strain) exceeds this; none by
+    /// default.
+    pub max_deformation: Option<f64>,
+}
+
+impl Default for OptimizeParams {
+    fn default() -> Self {
+        Self {
+            step: 0.3,
+            redetect_every: 5,
+            contract_steps: 5,
+            merge_steps: 30,
+            merged_distance: 0.01,
+            merge_angle: 65.0,
+            min_height: 0.2,
+            final_steps: 15,
+            finish_rounds: 8,
+            finish_length: 0.012,
+            max_deformation: None,
+        }
+    }
+}
+
+impl OptimizeParams {
+    /// Checks the ranges.
+    ///
+    /// # Errors
+    /// [`Error::Params`] with the first value out of its range.
+    pub fn check(&self) -> Result<()> {
+        let within = |name: &str, value: f64, low: f64, high: f64| {
+            if value >= low && value <= high {
+                Ok(())
+            } else {
+                Err(Error::params(
+                    format!("optimize.{name}"),
+                    format!("{value} is not in {low}..={high}"),
+                ))
+            }
+        };
+        within("step", self.step, 1e-3, 1.0)?;
+        within("merged_distance", self.merged_distance, 1e-5, 1.0)?;
+        within("merge_angle", self.merge_angle, 0.0, 90.0)?;
+        within("min_height", self.min_height, 0.0, 1.0)?;
+        within("finish_length", self.finish_length, 0.0, 1.0)?;
+        within(
+            "max_deformation",
+            self.max_deformation.unwrap_or(0.0),
+            0.0,
+            f64::MAX,
+        )?;
+        if self.redetect_every == 0 {
+            return Err(Error::params(
+                "optimize.redetect_every",
+                "must be at least 1",
+            ));
+        }
+        Ok(())
+    }
+}

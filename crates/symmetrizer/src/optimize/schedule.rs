@@ -1,0 +1,338 @@
+//! The schedule of section 4.2: contract the clusters, the biggest first, then merge them greedily,
+//! then make the whole symmetric under the final mirror.
+
+use serde::Serialize;
+
+use crate::context::Context;
+use crate::deform::primo::DeformParams;
+use crate::deform::Primo;
+use crate::detect::{DetectParams, Detection, detect};
+use crate::error::Result;
+use crate::geom::Point;
+use crate::optimize::contract::{contract, contract_whole};
+use crate::optimize::finish::finish;
+use crate::optimize::merge::{merge, ownership};
+use crate::optimize::moving::Moving;
+use crate::optimize::params::OptimizeParams;
+use crate::patch::Symmetry;
+use crate::shape::Surface;
+use crate::transform::{Isometry, Plane};
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// Every step of the schedule was done.
+    Converged,
+    /// The deformation energy reached its limit; the shape is as it was then.
+    EnergyLimit,
+    /// A merge ran out of steps.
+    StepLimit,
+    /// No symmetry was found; the shape is unchanged.
+    NoSymmetry,
+}
+
+/// One step of the schedule as it was done; parameters and ids suffice to do it again.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "step", rename_all = "snake_case")]
+pub enum Step {
+    /// A cluster was contracted.
+    Contract {
+        /// Id of the symmetry.
+        symmetry: u32,
+        /// Deformation steps.
+        steps: usize,
+        /// Couples at the end.
+        couples: usize,
+        /// Mean symmetry cost before and after, L^2.
+        cost: [f64; 2],
+        /// Deformation energy after it.
+        energy: f64,
+    },
+    /// Two clusters were merged.
+    Merge {
+        /// Ids of the symmetries.
+        symmetries: [u32; 2],
+        /// Deformation steps.
+        steps: usize,
+        /// Distance of their mirrors before and after, fraction of L.
+        distance: [f64; 2],
+        /// Share of the surface under the best mirror before and after.
+        coverage: [f64; 2],
+        /// Deformation energy after it.
+        energy: f64,
+        /// False where the merge was undone because coverage did not grow.
+        kept: bool,
+    },
+    /// The whole was contracted under the final mirror.
+    ContractWhole {
+        /// Deformation steps.
+        steps: usize,
+        /// Couples at the end.
+        couples: usize,
+        /// Mean symmetry cost before and after, L^2.
+        cost: [f64; 2],
+        /// Deformation energy after it.
+        energy: f64,
+    },
+    /// The finish at full resolution.
+    Finish {
+        /// Rounds.
+        rounds: usize,
+        /// rms displacement of the vertices, fraction of L.
+        rms: f64,
+    },
+}
+
+/// The optimized surface and how it came about.
+pub struct Optimized {
+    /// Vertex positions, working coordinates.
+    pub positions: Vec<Point>,
+    /// The final mirror, working coordinates.
+    pub plane: Option<Plane>,
+    /// How the run ended.
+    pub outcome: Outcome,
+    /// What was done, in order.
+    pub steps: Vec<Step>,
+    /// Deformation energy of the result.
+    pub energy: f64,
+}
+
+/// Parameters of [`optimize`].
+#[derive(Debug, Clone, Copy)]
+pub struct Settings<'a> {
+    /// Detection, for pairs that are found again on the way.
+    pub detect: &'a DetectParams,
+    /// The deformation model.
+    pub deform: &'a DeformParams,
+    /// The schedule.
+    pub optimize: &'a OptimizeParams,
+}
+
+/// Coverage that a merge must add to be kept.
+const MIN_GAIN: f64 = 0.02;
+
+/// Merges tried at the most.
+const MERGES: usize = 4;
+
+/// Symmetrizes `surface` from what `detection` found on it.
+///
+/// # Errors
+/// [`crate::Error::Params`], [`crate::Error::Numerical`], [`crate::Error::Cancelled`].
+pub fn optimize(
+    surface: &Surface,
+    detection: &Detection,
+    settings: Settings<'_>,
+    ctx: &mut Context<'_>,
+) -> Result<Optimized> {
+    settings.optimize.check()?;
+    if detection.symmetries.is_empty() {
+        return Ok(Optimized {
+            positions: surface.positions.clone(),
+            plane: None,
+            outcome: Outcome::NoSymmetry,
+            steps: Vec::new(),
+            energy: 0.0,
+        });
+    }
+    let mut deformer = ctx.stage("prepare", |_| Primo::new(surface, settings.deform))?;
+    let moving = Moving {
+        samples: &detection.samples,
+        length: settings.deform.length,
+        step: settings.optimize.step,
+        deformer: &mut deformer,
+    };
+    Schedule {
+        moving,
+        settings,
+        symmetries: worthwhile(&detection.symmetries, settings.optimize.min_height),
+        steps: Vec::new(),
+        outcome: Outcome::Converged,
+    }
+    .run(ctx)
+}
+
+/// Symmetries that are not far lower than the highest.
+fn worthwhile(found: &[Symmetry], min_height: f64) -> Vec<Symmetry> {
+    let highest = found.iter().map(|s| s.height).fold(0.0, f64::max);
+    found
+        .iter()
+        .filter(|s| s.height >= min_height * highest)
+        .cloned()
+        .collect()
+}
+
+struct Schedule<'a> {
+    moving: Moving<'a>,
+    settings: Settings<'a>,
+    symmetries: Vec<Symmetry>,
+    steps: Vec<Step>,
+    outcome: Outcome,
+}
+
+impl Schedule<'_> {
+    fn run(mut self, ctx: &mut Context<'_>) -> Result<Optimized> {
+        ctx.stage("contract", |ctx| self.contract_all(ctx))?;
+        if self.outcome == Outcome::Converged {
+            ctx.stage("merge", |ctx| self.merge_all(ctx))?;
+        }
+        let mut plane = self.symmetries[0].plane;
+        if self.outcome != Outcome::EnergyLimit {
+            plane = ctx.stage("contract whole", |ctx| self.contract_whole(plane, ctx))?;
+        }
+        let mut positions = self.moving.deformer.positions();
+        if self.outcome != Outcome::EnergyLimit && self.settings.optimize.finish_rounds > 0 {
+            let now = self.moving.deformer.rest().with_positions(positions);
+            let done = ctx.stage("finish", |ctx| {
+                finish(now, plane, self.settings.optimize, ctx)
+            })?;
+            self.steps.push(Step::Finish {
+                rounds: done.rounds,
+                rms: done.rms,
+            });
+            plane = done.plane;
+            positions = done.positions;
+        }
+        Ok(Optimized {
+            positions,
+            plane: Some(plane),
+            outcome: self.outcome,
+            steps: self.steps,
+            energy: self.moving.deformer.energy(),
+        })
+    }
+
+    fn contract_all(&mut self, ctx: &mut Context<'_>) -> Result<()> {
+        let params = self.settings.optimize;
+        let count = self.symmetries.len();
+        for k in 0..count {
+            ctx.progress(k as f64 / count as f64)?;
+            let s = &self.symmetries[k];
+            let patch = &self.settings.detect.patch;
+            let steps = params.contract_steps;
+            let done = contract(&mut self.moving, s, steps, patch, params, ctx)?;
+            self.steps.push(Step::Contract {
+                symmetry: s.id,
+                steps: done.steps,
+                couples: done.couples,
+                cost: done.cost,
+                energy: done.energy,
+            });
+            self.symmetries[k].plane = done.plane;
+            if done.limited {
+                self.outcome = Outcome::EnergyLimit;
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Greedy merging by distance in transformation space; after each merge the symmetries are found
+    /// again, and a merge that gained no ground is undone.
+    fn merge_all(&mut self, ctx: &mut Context<'_>) -> Result<()> {
+        for _ in 0..MERGES {
+            let Some((i, j, owned)) = self.next_merge() else {
+                break;
+            };
+            let before = self.moving.deformer.state();
+            let covered = coverage(&self.symmetries);
+            let [a, b] = owned;
+            let (s, t) = (&self.symmetries[i], &self.symmetries[j]);
+            let ids = [s.id, t.id];
+            let patch = &self.settings.detect.patch;
+            let done = merge(
+                &mut self.moving,
+                [(s, a), (t, b)],
+                patch,
+                self.settings.optimize,
+                ctx,
+            )?;
+            let found = self.detect_again(ctx)?;
+            let kept = coverage(&found) > covered + MIN_GAIN;
+            self.steps.push(Step::Merge {
+                symmetries: ids,
+                steps: done.steps,
+                distance: done.distance,
+                coverage: [covered, coverage(&found)],
+                energy: done.energy,
+                kept,
+            });
+            if kept {
+                self.symmetries = found;
+            } else {
+                self.moving.deformer.restore(&before);
+                self.symmetries.remove(j);
+            }
+            if done.limited && kept {
+                self.outcome = Outcome::EnergyLimit;
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// The nearest two symmetries that may be merged, with the samples that speak for each alone.
+    fn next_merge(&self) -> Option<(usize, usize, [Vec<bool>; 2])> {
+        let count = self.moving.samples.list.len();
+        let space = crate::transform::TransformSpace::new(
+            self.moving.samples.list.iter().map(|s| (s.position, 1.0)),
+        );
+        let min_cos = self.settings.optimize.merge_angle.to_radians().cos();
+        let mut best: Option<(f64, usize, usize, [Vec<bool>; 2])> = None;
+        for i in 0..self.symmetries.len() {
+            for j in i + 1..self.symmetries.len() {
+                let (s, t) = (&self.symmetries[i], &self.symmetries[j]);
+                if s.plane.normal.dot(&t.plane.normal).abs() < min_cos {
+                    continue;
+                }
+                let owned = ownership(s, t, count);
+                let large = [s, t].iter().zip(&owned).all(|(s, own)| {
+                    let kept = own.iter().filter(|o| **o).count();
+                    2 * kept > s.pairs.len()
+                });
+                if !large {
+                    continue;
+                }
+                let mirrors = (Isometry::mirror(&s.plane), Isometry::mirror(&t.plane));
+                let distance = space.distance(&mirrors.0, &mirrors.1);
+                if best.as_ref().is_none_or(|b| distance < b.0) {
+                    best = Some((distance, i, j, owned));
+                }
+            }
+        }
+        best.map(|(_, i, j, owned)| (i, j, owned))
+    }
+
+    /// Detection on the shape as it is now, on the same samples' surface points.
+    fn detect_again(&self, ctx: &mut Context<'_>) -> Result<Vec<Symmetry>> {
+        let surface = self
+            .moving
+            .deformer
+            .rest()
+            .with_positions(self.moving.deformer.positions());
+        let found = detect(&surface, self.settings.detect, ctx)?.symmetries;
+        Ok(worthwhile(&found, self.settings.optimize.min_height))
+    }
+
+    fn contract_whole(&mut self, plane: Plane, ctx: &mut Context<'_>) -> Result<Plane> {
+        let done = contract_whole(&mut self.moving, plane, self.settings.optimize, ctx)?;
+        self.steps.push(Step::ContractWhole {
+            steps: done.steps,
+            couples: done.couples,
+            cost: done.cost,
+            energy: done.energy,
+        });
+        if done.limited {
+            self.outcome = Outcome::EnergyLimit;
+        }
+        Ok(done.plane)
+    }
+}
+
+/// The largest share of the surface that one mirror holds for.
+fn coverage(symmetries: &[Symmetry]) -> f64 {
+    symmetries
+        .iter()
+        .map(|s| s.area_fraction)
+        .fold(0.0, f64::max)
+}

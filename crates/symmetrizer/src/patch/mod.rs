@@ -1,0 +1,8 @@
+//! From a cluster of votes to a symmetry: verification and region growing (section 2).
+
+pub mod grow;
+pub mod refine;
+pub mod symmetry;
+
+pub use grow::{PatchParams, grow_patch};
+pub use symmetry::{Refusal, Symmetry};

@@ -1,0 +1,70 @@
+//! A symmetry of a surface: a mirror, the part of the surface it holds for, its pairs.
+
+use crate::geom::Point;
+use crate::shape::SurfacePoint;
+use crate::transform::Plane;
+
+/// A sample and its symmetric partner on the surface.
+#[derive(Debug, Clone, Copy)]
+pub struct PatchPair {
+    /// Index of the sample.
+    pub sample: u32,
+    /// The partner of the sample: the surface point closest to its mirror image.
+    pub partner: SurfacePoint,
+    /// Distance of the partner from the mirror image, fraction of L.
+    pub residual: f64,
+}
+
+/// A verified mirror symmetry of a part of a surface.
+#[derive(Debug, Clone)]
+pub struct Symmetry {
+    /// Stable name within a job.
+    pub id: u32,
+    /// The mirror, working coordinates.
+    pub plane: Plane,
+    /// Kernel density of the votes it was found by.
+    pub height: f64,
+    /// The pairs, one for each sample of the patch, by sample.
+    pub pairs: Vec<PatchPair>,
+    /// Patch and image as a share of the surface's area.
+    pub area_fraction: f64,
+    /// rms residual over the pairs, fraction of L.
+    pub rms: f64,
+    /// The median, over the pairs, of the share of all samples that look more like a sample than its
+    /// partner does: 0 where partners are unique, 0.5 where they are any two places.
+    pub confusion: f64,
+    /// The explained fraction of the mirror fit (1 for a perfect mirror).
+    pub explained: f64,
+    /// The eigenvalue gap of the mirror fit (0 where the normal is undetermined).
+    pub gap: f64,
+}
+
+impl Symmetry {
+    /// Which of `count` samples belong to the patch.
+    pub fn membership(&self, count: usize) -> Vec<bool> {
+        let mut member = vec![false; count];
+        for pair in &self.pairs {
+            member[pair.sample as usize] = true;
+        }
+        member
+    }
+
+    /// The symmetry cost of the pairs (section 3): the mean over the patch of the squared smallest
+    /// displacement |d_p|^2 that makes it symmetric, L^2.
+    pub fn cost(&self) -> f64 {
+        self.rms * self.rms / 4.0
+    }
+}
+
+/// Why a cluster did not become a symmetry.
+#[derive(Debug, Clone)]
+pub struct Refusal {
+    /// The cluster's plane.
+    pub plane: Plane,
+    /// The cluster's height.
+    pub height: f64,
+    /// The reason, for people.
+    pub reason: String,
+    /// A point of the plane near the votes, for pictures.
+    pub near: Point,
+}

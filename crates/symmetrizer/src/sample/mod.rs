@@ -1,0 +1,9 @@
+//! Samples of a surface and their signatures (section 2).
+
+pub mod blue_noise;
+pub mod samples;
+pub mod signature;
+pub mod uniform;
+
+pub use samples::{Sample, SampleParams, Samples, sample};
+pub use signature::Signature;
