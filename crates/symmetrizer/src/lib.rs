@@ -3,9 +3,11 @@
 //! The modules stand on floors and use only what is below them; a test keeps it so
 //! (`tests/floors.rs`). Read upwards, they are the pipeline of the paper.
 
+pub mod apply;
 pub mod context;
 pub mod error;
 pub mod geom;
+pub mod sample;
 pub mod shape;
 pub mod transform;
 

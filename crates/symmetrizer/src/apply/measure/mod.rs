@@ -1,0 +1,13 @@
+//! Numbers for the report: how symmetric a shape is, and what a deformation did to it.
+
+pub mod asymmetry;
+mod refine;
+mod search;
+
+pub use asymmetry::{Asymmetry, NearPlane, asymmetry, per_vertex};
+
+/// The smallest of `sorted` that at least the share `p` of them do not exceed; 0 of none.
+fn percentile(sorted: &[f64], p: f64) -> f64 {
+    let rank = (p * sorted.len() as f64).ceil() as usize;
+    sorted.get(rank.max(1) - 1).copied().unwrap_or(0.0)
+}

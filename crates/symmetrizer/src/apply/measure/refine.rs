@@ -1,0 +1,160 @@
+//! Moves a mirror plane to the nearest minimum of the mean mirror distance.
+//!
+//! The letters: x a sample; n, d the plane n.x = d; s = n.x - d; y = x - 2 s n the mirror image;
+//! q the closest surface point of y; r = y - q, |r| the mirror distance. The plane has three
+//! degrees of freedom: n turns by a e1 + b e2 (e1, e2, n orthonormal), d shifts by c, and to first
+//! order dy = a (-2 (e1.x) n - 2 s e1) + b (-2 (e2.x) n - 2 s e2) + c 2 n = J (a, b, c).
+//!
+//! The mean of |r| (not of its square) is minimised, by Gauss-Newton on reweighted squares
+//! sum w ((u.dr)^2 + beta |dr|^2), w = 1 / max(|r|, floor), u = r / |r|. Its gradient is exactly that
+//! of the mean distance; the term along u lets the image slide along the surface, as in
+//! point-to-plane registration, and beta keeps it from sliding off.
+
+use rayon::prelude::*;
+
+use crate::geom::{Matrix3, Point, Vector, any_orthogonal};
+use crate::shape::ClosestPoint;
+use crate::transform::isometry::Plane;
+
+/// Weight of sliding against approaching: ours; 0.05 in the prototype (FINDINGS, Detection).
+const BETA: f64 = 0.05;
+/// Below this share of the mean a distance counts as this share, so that the samples which
+/// already fit do not hold the plane where it is; ours.
+const FLOOR: f64 = 0.1;
+/// A step must lower the mean by this share to be worth another round; ours.
+const GAIN: f64 = 1e-4;
+
+/// A sample, where its mirror image misses the surface, and by how much.
+#[derive(Debug, Clone, Copy)]
+struct Match {
+    x: Point,
+    q: Point,
+    /// y - q.
+    r: Vector,
+    distance: f64,
+}
+
+/// A plane and the mean mirror distance of the samples it was fitted to, in units of L.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Fitted {
+    pub plane: Plane,
+    pub mean: f64,
+}
+
+/// Where `x` goes.
+pub(super) fn image(plane: &Plane, x: &Point) -> Point {
+    x - 2.0 * plane.signed_distance(x) * plane.normal
+}
+
+/// Lowers the mean mirror distance of `samples` for at most `rounds` rounds. The result is never
+/// worse than `start`: a step that does not lower the mean is halved, and then given up.
+pub(super) fn descend(
+    start: Plane,
+    samples: &[Point],
+    closest: &ClosestPoint,
+    rounds: usize,
+) -> Fitted {
+    let mut plane = start;
+    let mut matches = first_matches(&plane, samples, closest);
+    let mut mean = mean_distance(&matches);
+    for _ in 0..rounds {
+        let Some(step) = gauss_newton(&plane, &matches, FLOOR * mean) else {
+            break;
+        };
+        let before = mean;
+        // Along valleys of the mean the reweighted step is short, so a doubled one is tried first.
+        for length in [2.0, 1.0, 0.5, 0.25] {
+            let trial = moved(&plane, &(step * length));
+            let trial_matches = next_matches(&trial, &matches, closest);
+            let trial_mean = mean_distance(&trial_matches);
+            if trial_mean < mean {
+                (plane, matches, mean) = (trial, trial_matches, trial_mean);
+                break;
+            }
+        }
+        if mean >= before * (1.0 - GAIN) {
+            break;
+        }
+    }
+    Fitted { plane, mean }
+}
+
+/// The mirror distance of every sample, in order, in units of L.
+pub(super) fn distances(plane: &Plane, samples: &[Point], closest: &ClosestPoint) -> Vec<f64> {
+    first_matches(plane, samples, closest)
+        .iter()
+        .map(|m| m.distance)
+        .collect()
+}
+
+fn first_matches(plane: &Plane, samples: &[Point], closest: &ClosestPoint) -> Vec<Match> {
+    samples
+        .par_iter()
+        .map(|x| find(plane, x, closest, f64::INFINITY))
+        .collect()
+}
+
+/// As `first_matches`, faster: the last closest point bounds the search.
+fn next_matches(plane: &Plane, last: &[Match], closest: &ClosestPoint) -> Vec<Match> {
+    last.par_iter()
+        .map(|m| {
+            let bound = (image(plane, &m.x) - m.q).norm();
+            // A little more, because the search wants a strictly smaller distance.
+            find(plane, &m.x, closest, bound * (1.0 + 1e-9) + 1e-12)
+        })
+        .collect()
+}
+
+fn find(plane: &Plane, x: &Point, closest: &ClosestPoint, bound: f64) -> Match {
+    let y = image(plane, x);
+    let hit = closest
+        .nearest(&y, bound)
+        .or_else(|| closest.nearest(&y, f64::INFINITY));
+    let q = hit.map_or(y, |h| h.point);
+    let r = y - q;
+    Match {
+        x: *x,
+        q,
+        r,
+        distance: r.norm(),
+    }
+}
+
+fn mean_distance(matches: &[Match]) -> f64 {
+    matches.iter().map(|m| m.distance).sum::<f64>() / matches.len().max(1) as f64
+}
+
+/// The step (a, b, c); none where the samples do not determine it.
+fn gauss_newton(plane: &Plane, matches: &[Match], floor: f64) -> Option<Vector> {
+    let n = plane.normal;
+    let (e1, e2) = tangents(&n);
+    let mut h = Matrix3::zeros();
+    let mut g = Vector::zeros();
+    for m in matches {
+        let w = 1.0 / m.distance.max(floor).max(1e-12);
+        let s = plane.signed_distance(&m.x);
+        let turned = |e: &Vector| -2.0 * e.dot(&m.x.coords) * n - 2.0 * s * e;
+        let j = Matrix3::from_columns(&[turned(&e1), turned(&e2), 2.0 * n]);
+        let jr = j.tr_mul(&m.r);
+        // u = r / |r|, so that (u.r) u = r and J^T u u^T J = (J^T r)(J^T r)^T / |r|^2.
+        let along = w / m.distance.max(1e-12).powi(2);
+        h += jr * jr.transpose() * along + j.tr_mul(&j) * (BETA * w);
+        g += jr * (w * (1.0 + BETA));
+    }
+    let damping = 1e-9 * h.trace();
+    let step = -(h + Matrix3::identity() * damping).cholesky()?.solve(&g);
+    step.iter().all(|v| v.is_finite()).then_some(step)
+}
+
+fn moved(plane: &Plane, step: &Vector) -> Plane {
+    let (e1, e2) = tangents(&plane.normal);
+    Plane {
+        normal: (plane.normal + step.x * e1 + step.y * e2).normalize(),
+        offset: plane.offset + step.z,
+    }
+}
+
+fn tangents(n: &Vector) -> (Vector, Vector) {
+    let e1 = any_orthogonal(n);
+    (e1, n.cross(&e1))
+}
