@@ -4,8 +4,8 @@
 use std::path::PathBuf;
 
 use symmetrizer::geom::{Point, Vector, exp_rotation};
-use symmetrizer::shape::surface::Working;
 use symmetrizer::shape::Mesh;
+use symmetrizer::shape::surface::Working;
 
 /// A mesh of an OBJ (`v`, `f`) or OFF file.
 pub fn load(path: &std::path::Path) -> Mesh {
@@ -74,7 +74,10 @@ pub fn model(name: &str) -> Option<PathBuf> {
     if path.exists() {
         return Some(path);
     }
-    eprintln!("SKIPPED: {} is not there; set SYMMETRIZER_DATA", path.display());
+    eprintln!(
+        "SKIPPED: {} is not there; set SYMMETRIZER_DATA",
+        path.display()
+    );
     None
 }
 
@@ -140,4 +143,35 @@ pub fn sphere(levels: u32) -> Mesh {
         }
     }
     mesh
+}
+
+/// The unit square in z = 0, `n` x `n` quads, cut alternately so that it is symmetric.
+pub fn planar_grid(n: u32) -> Mesh {
+    let mut mesh = Mesh::default();
+    for j in 0..=n {
+        for i in 0..=n {
+            let (x, y) = (f64::from(i) / f64::from(n), f64::from(j) / f64::from(n));
+            mesh.positions.push(Point::new(x, y, 0.0));
+        }
+    }
+    let at = |i: u32, j: u32| j * (n + 1) + i;
+    for j in 0..n {
+        for i in 0..n {
+            let quad = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            mesh.polygons.push(&quad);
+        }
+    }
+    mesh
+}
+
+/// Both meshes as one.
+pub fn union(a: &Mesh, b: &Mesh) -> Mesh {
+    let mut both = a.clone();
+    let base = a.positions.len() as u32;
+    both.positions.extend_from_slice(&b.positions);
+    for polygon in b.polygons.iter() {
+        let corners: Vec<u32> = polygon.iter().map(|v| v + base).collect();
+        both.polygons.push(&corners);
+    }
+    both
 }

@@ -21,8 +21,9 @@ const BETA: f64 = 0.05;
 /// Below this share of the mean a distance counts as this share, so that the samples which
 /// already fit do not hold the plane where it is; ours.
 const FLOOR: f64 = 0.1;
-/// A step must lower the mean by this share to be worth another round; ours.
-const GAIN: f64 = 1e-4;
+/// Step lengths tried, in Gauss-Newton steps; ours.
+const LONGEST: f64 = 2.0;
+const SHORTEST: f64 = 0.25;
 
 /// A sample, where its mirror image misses the surface, and by how much.
 #[derive(Debug, Clone, Copy)]
@@ -46,37 +47,67 @@ pub(super) fn image(plane: &Plane, x: &Point) -> Point {
     x - 2.0 * plane.signed_distance(x) * plane.normal
 }
 
-/// Lowers the mean mirror distance of `samples` for at most `rounds` rounds. The result is never
-/// worse than `start`: a step that does not lower the mean is halved, and then given up.
+/// Lowers the mean mirror distance of `samples` for at most `rounds` rounds, or until a round
+/// lowers it by less than the share `gain`. The result is never worse than `start`: a step that
+/// does not lower the mean is halved, and then given up.
 pub(super) fn descend(
     start: Plane,
     samples: &[Point],
     closest: &ClosestPoint,
     rounds: usize,
+    gain: f64,
 ) -> Fitted {
-    let mut plane = start;
-    let mut matches = first_matches(&plane, samples, closest);
-    let mut mean = mean_distance(&matches);
+    let matches = first_matches(&start, samples, closest);
+    let mut state = State::new(start, matches);
+    // Along valleys of the mean the reweighted step is short, so a doubled one is tried first.
+    let mut length = LONGEST;
     for _ in 0..rounds {
-        let Some(step) = gauss_newton(&plane, &matches, FLOOR * mean) else {
+        let goal = state.mean * (1.0 - gain);
+        let Some(next) = state.lower(&mut length, closest) else {
             break;
         };
-        let before = mean;
-        // Along valleys of the mean the reweighted step is short, so a doubled one is tried first.
-        for length in [2.0, 1.0, 0.5, 0.25] {
-            let trial = moved(&plane, &(step * length));
-            let trial_matches = next_matches(&trial, &matches, closest);
-            let trial_mean = mean_distance(&trial_matches);
-            if trial_mean < mean {
-                (plane, matches, mean) = (trial, trial_matches, trial_mean);
-                break;
-            }
-        }
-        if mean >= before * (1.0 - GAIN) {
+        state = next;
+        if state.mean > goal {
             break;
         }
     }
-    Fitted { plane, mean }
+    Fitted {
+        plane: state.plane,
+        mean: state.mean,
+    }
+}
+
+/// A plane with the matches and the mean that belong to it.
+struct State {
+    plane: Plane,
+    matches: Vec<Match>,
+    mean: f64,
+}
+
+impl State {
+    fn new(plane: Plane, matches: Vec<Match>) -> Self {
+        let mean = mean_distance(&matches);
+        Self {
+            plane,
+            matches,
+            mean,
+        }
+    }
+
+    /// A state of lower mean along the Gauss-Newton step, if there is one; `length`, in steps, is
+    /// where the search begins and becomes what succeeded.
+    fn lower(&self, length: &mut f64, closest: &ClosestPoint) -> Option<Self> {
+        let step = gauss_newton(&self.plane, &self.matches, FLOOR * self.mean)?;
+        while *length >= SHORTEST {
+            let plane = moved(&self.plane, &(step * *length));
+            let trial = Self::new(plane, next_matches(&plane, &self.matches, closest));
+            if trial.mean < self.mean {
+                return Some(trial);
+            }
+            *length /= 2.0;
+        }
+        None
+    }
 }
 
 /// The mirror distance of every sample, in order, in units of L.

@@ -13,12 +13,12 @@ use crate::transform::isometry::Plane;
 
 type Cloud = ImmutableKdTree<f64, 3>;
 
-/// Directions tried: a half sphere's worth, 8 degrees apart; ours.
-const DIRECTIONS: usize = 320;
+/// Directions tried: a half sphere's worth, 9 degrees apart; ours.
+const DIRECTIONS: usize = 240;
 /// Samples mirrored to score a direction; ours.
-const SCORED: usize = 500;
+const SCORED: usize = 300;
 /// Points that stand for the surface while directions are scored; ours.
-const TARGETS: usize = 5_000;
+const TARGETS: usize = 4_000;
 /// Directions taken further; ours.
 const PROMISING: usize = 24;
 /// A direction nearer than this to a better one is left to it; ours.
@@ -26,50 +26,60 @@ const PROMISING_APART: Apart = Apart {
     degrees: 10.0,
     offset: f64::INFINITY,
 };
-/// Planes nearer than this came down the same valley; ours.
+/// Planes nearer than this are in the same valley, and the better one goes on; ours, a little less
+/// than what makes two planes two in the report.
 const SAME: Apart = Apart {
-    degrees: 1.0,
-    offset: 0.004,
+    degrees: 4.0,
+    offset: 0.012,
 };
 
 /// One round of the search: every plane still in it descends.
 struct Sieve {
     samples: usize,
     rounds: usize,
+    /// A plane stops when a round lowers its mean by less than this share.
+    gain: f64,
     /// At most so many distinct planes pass,
     pass: usize,
-    /// those whose mean is at most this multiple of the best (plus [`SLACK`]).
+    /// those whose mean is at most this multiple of the best
     reach: f64,
+    /// plus this fraction of L, because a few samples cannot tell small means apart.
+    slack: f64,
 }
-
-/// A share of L that no plane is dropped for, because a few samples cannot tell; ours.
-const SLACK: f64 = 1e-3;
 
 /// Ours: generous at first, because a wrong offset can hide the right direction.
 const SIEVES: [Sieve; 4] = [
     Sieve {
-        samples: 400,
-        rounds: 6,
-        pass: 10,
+        samples: 300,
+        rounds: 5,
+        gain: 0.02,
+        pass: 12,
         reach: 3.0,
+        slack: 2e-3,
     },
     Sieve {
-        samples: 1_500,
+        samples: 1_250,
         rounds: 12,
-        pass: 8,
-        reach: 1.5,
+        gain: 0.005,
+        pass: 12,
+        reach: 1.35,
+        slack: 1e-3,
     },
     Sieve {
         samples: 5_000,
         rounds: 12,
-        pass: 8,
+        gain: 5e-4,
+        pass: 12,
         reach: 1.3,
+        slack: 6e-4,
     },
     Sieve {
         samples: usize::MAX,
-        rounds: 3,
-        pass: 8,
-        reach: f64::INFINITY,
+        rounds: 6,
+        gain: 1e-4,
+        pass: 12,
+        reach: 1.3,
+        slack: 6e-4,
     },
 ];
 
@@ -90,7 +100,7 @@ impl Apart {
     }
 }
 
-/// Local minima of the mean mirror distance of `samples`, best first, at most eight; minima much
+/// Local minima of the mean mirror distance of `samples`, best first, at most twelve; minima much
 /// worse than the best are dropped on the way. Candidates take part whatever they score at first.
 pub(super) fn local_minima(
     samples: &[Point],
@@ -104,11 +114,11 @@ pub(super) fn local_minima(
         let subset = strided(samples, sieve.samples);
         fitted = planes
             .par_iter()
-            .map(|&plane| descend(plane, &subset, closest, sieve.rounds))
+            .map(|&plane| descend(plane, &subset, closest, sieve.rounds, sieve.gain))
             .collect();
         fitted = distinct(fitted, &SAME);
         fitted.truncate(sieve.pass);
-        let limit = fitted.first().map_or(0.0, |f| f.mean) * sieve.reach + SLACK;
+        let limit = fitted.first().map_or(0.0, |f| f.mean) * sieve.reach + sieve.slack;
         fitted.retain(|f| f.mean <= limit);
         planes = fitted.iter().map(|f| f.plane).collect();
     }
