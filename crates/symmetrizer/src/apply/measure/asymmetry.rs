@@ -7,7 +7,7 @@
 
 use crate::apply::measure::percentile;
 use crate::apply::measure::refine::distances;
-use crate::apply::measure::search::{Apart, distinct, local_minima};
+use crate::apply::measure::search::local_minima;
 use crate::context::Context;
 use crate::error::{Error, Result};
 use crate::geom::Point;
@@ -21,12 +21,6 @@ const SAMPLES: usize = 20_000;
 const NEAR_RATIO: f64 = 1.25;
 /// ... or at most this much above the best, in percent of D; ours.
 const NEAR_EXCESS: f64 = 0.05;
-/// ... and when it differs by more than this from the best and from each other one; ours.
-const NEAR_APART: Apart = Apart {
-    degrees: 5.0,
-    offset: 0.02,
-};
-
 /// Mirror distances of a surface, in percent of the bounding-box diagonal D.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Asymmetry {
@@ -42,7 +36,8 @@ pub struct Asymmetry {
     pub p99: f64,
     /// The largest distance.
     pub max: f64,
-    /// Other planes that are nearly as good, best first.
+    /// Other planes that are nearly as good (mean at most 1.25 times, or 0.05 above, the best), best
+    /// first; all differ from each other by more than 5 degrees or 2 % of L.
     pub also_near: Vec<NearPlane>,
 }
 
@@ -76,12 +71,10 @@ pub fn asymmetry(
     let minima = local_minima(&samples, candidates, &closest);
     ctx.check()?;
     let percent = 100.0 / diagonal;
-    let mut near = distinct(minima, &NEAR_APART)
-        .into_iter()
-        .map(|f| NearPlane {
-            plane: f.plane.canonical(),
-            mean: f.mean * percent,
-        });
+    let mut near = minima.into_iter().map(|f| NearPlane {
+        plane: f.plane.canonical(),
+        mean: f.mean * percent,
+    });
     let best = near.next().ok_or_else(|| failed("no plane was found"))?;
     let limit = (NEAR_RATIO * best.mean).max(best.mean + NEAR_EXCESS);
     let mut all = distances(&best.plane, &samples, &closest);

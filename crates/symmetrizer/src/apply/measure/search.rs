@@ -26,11 +26,15 @@ const PROMISING_APART: Apart = Apart {
     degrees: 10.0,
     offset: f64::INFINITY,
 };
-/// Planes nearer than this are in the same valley, and the better one goes on; ours, a little less
-/// than what makes two planes two in the report.
+/// While the search runs, the better one only of two planes nearer than this goes on; ours.
 const SAME: Apart = Apart {
-    degrees: 4.0,
-    offset: 0.012,
+    degrees: 3.0,
+    offset: 0.01,
+};
+/// In the end planes nearer than this are one; ours.
+const ONE: Apart = Apart {
+    degrees: 5.0,
+    offset: 0.02,
 };
 
 /// One round of the search: every plane still in it descends.
@@ -39,7 +43,9 @@ struct Sieve {
     rounds: usize,
     /// A plane stops when a round lowers its mean by less than this share.
     gain: f64,
-    /// At most so many distinct planes pass,
+    /// Of planes that are not this far apart the best passes,
+    apart: Apart,
+    /// at most so many of them,
     pass: usize,
     /// those whose mean is at most this multiple of the best
     reach: f64,
@@ -53,30 +59,34 @@ const SIEVES: [Sieve; 4] = [
         samples: 300,
         rounds: 5,
         gain: 0.02,
+        apart: SAME,
         pass: 12,
-        reach: 3.0,
-        slack: 2e-3,
+        reach: 1.4,
+        slack: 3e-3,
     },
     Sieve {
         samples: 1_250,
         rounds: 12,
         gain: 0.005,
+        apart: SAME,
         pass: 12,
         reach: 1.35,
         slack: 1e-3,
     },
     Sieve {
         samples: 5_000,
-        rounds: 12,
-        gain: 5e-4,
+        rounds: 20,
+        gain: 2e-4,
+        apart: SAME,
         pass: 12,
         reach: 1.3,
         slack: 6e-4,
     },
     Sieve {
         samples: usize::MAX,
-        rounds: 6,
-        gain: 1e-4,
+        rounds: 3,
+        gain: 3e-4,
+        apart: ONE,
         pass: 12,
         reach: 1.3,
         slack: 6e-4,
@@ -85,11 +95,11 @@ const SIEVES: [Sieve; 4] = [
 
 /// How far apart two planes must be to count as two: in angle or in offset.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Apart {
+struct Apart {
     /// Angle between the normals.
-    pub degrees: f64,
+    degrees: f64,
     /// Difference of the distances from the origin, the rest shape's centroid; fraction of L.
-    pub offset: f64,
+    offset: f64,
 }
 
 impl Apart {
@@ -100,8 +110,8 @@ impl Apart {
     }
 }
 
-/// Local minima of the mean mirror distance of `samples`, best first, at most twelve; minima much
-/// worse than the best are dropped on the way. Candidates take part whatever they score at first.
+/// Local minima of the mean mirror distance of `samples`, best first, at most twelve, more than 5
+/// degrees or 2 % of L apart; minima much worse than the best are dropped on the way. Candidates take part whatever they score at first.
 pub(super) fn local_minima(
     samples: &[Point],
     candidates: &[Plane],
@@ -116,7 +126,7 @@ pub(super) fn local_minima(
             .par_iter()
             .map(|&plane| descend(plane, &subset, closest, sieve.rounds, sieve.gain))
             .collect();
-        fitted = distinct(fitted, &SAME);
+        fitted = distinct(fitted, &sieve.apart);
         fitted.truncate(sieve.pass);
         let limit = fitted.first().map_or(0.0, |f| f.mean) * sieve.reach + sieve.slack;
         fitted.retain(|f| f.mean <= limit);
@@ -126,7 +136,7 @@ pub(super) fn local_minima(
 }
 
 /// The best of each group of like planes, best first.
-pub(super) fn distinct(mut fitted: Vec<Fitted>, apart: &Apart) -> Vec<Fitted> {
+fn distinct(mut fitted: Vec<Fitted>, apart: &Apart) -> Vec<Fitted> {
     fitted.sort_by(|a, b| a.mean.total_cmp(&b.mean));
     let mut kept: Vec<Fitted> = Vec::new();
     for f in fitted {
