@@ -189,3 +189,48 @@ fn tangents(n: &Vector) -> (Vector, Vector) {
     let e1 = any_orthogonal(n);
     (e1, n.cross(&e1))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::Surface;
+
+    /// A rough asymmetric terrain.
+    fn terrain() -> Surface {
+        let n = 12_u32;
+        let height = |i: u32, j: u32| f64::from((i * i * 7 + j * 13 + i * j * 5) % 11) / 60.0;
+        let positions = (0..=n)
+            .flat_map(|j| (0..=n).map(move |i| (i, j)))
+            .map(|(i, j)| Point::new(f64::from(i) / 12.0, f64::from(j) / 9.0, height(i, j)))
+            .collect();
+        let at = |i: u32, j: u32| j * (n + 1) + i;
+        let triangles: Vec<[u32; 3]> = (0..n)
+            .flat_map(|j| (0..n).map(move |i| (i, j)))
+            .flat_map(|(i, j)| {
+                let (a, c) = (at(i, j), at(i + 1, j + 1));
+                [[a, at(i + 1, j), c], [a, c, at(i, j + 1)]]
+            })
+            .collect();
+        Surface::new(positions, triangles.into())
+    }
+
+    #[test]
+    fn descending_never_raises_the_mean_and_reports_the_true_one() {
+        let surface = terrain();
+        let closest = ClosestPoint::new(&surface);
+        let samples = &surface.positions;
+        let mean = |plane: &Plane| {
+            let all = distances(plane, samples, &closest);
+            all.iter().sum::<f64>() / all.len() as f64
+        };
+        for k in 0..40 {
+            let angle = f64::from(k);
+            let normal = Vector::new(angle.cos(), angle.sin(), (angle * 0.7).sin()).normalize();
+            let start = Plane::through(&Point::new(0.5, 0.6, 0.1), normal);
+            let end = descend(start, samples, &closest, 15, 1e-4);
+            assert!(end.mean <= mean(&start));
+            // The searches on the way are bounded by the last closest points; the answer is not.
+            assert!((end.mean - mean(&end.plane)).abs() < 1e-12);
+        }
+    }
+}
