@@ -3,6 +3,7 @@
 //! The modules stand on floors and use only what is below them; a test keeps it so
 //! (`tests/floors.rs`). Read upwards, they are the pipeline of the paper.
 
+pub mod apply;
 pub mod cluster;
 pub mod context;
 pub mod deform;

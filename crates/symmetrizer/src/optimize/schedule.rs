@@ -4,8 +4,8 @@
 use serde::Serialize;
 
 use crate::context::Context;
-use crate::deform::primo::DeformParams;
 use crate::deform::Primo;
+use crate::deform::primo::DeformParams;
 use crate::detect::{DetectParams, Detection, detect};
 use crate::error::Result;
 use crate::geom::Point;

@@ -1,0 +1,34 @@
+//! The best rotation and the best rigid motion between corresponding points (METHOD 7.4).
+//!
+//! The letters: p, q corresponding points, w their weights, ~ about the weighted means;
+//! H = sum w p~ q~^T = U S V^T, R = V diag(1, 1, det(V U^T)) U^T, so that R p ~ q.
+
+use crate::geom::{Matrix3, Point, Vector};
+
+/// `p` moved rigidly (no reflection, no scale) as near to `q` as it gets in the weighted rms.
+pub(super) fn align_rigidly(p: &[Point], q: &[Point], w: &[f64]) -> Vec<Point> {
+    let total: f64 = w.iter().sum();
+    let mean = |x: &[Point]| {
+        let sum: Vector = x.iter().zip(w).map(|(x, w)| x.coords * *w).sum();
+        Point::from(sum / total)
+    };
+    let (p_mean, q_mean) = (mean(p), mean(q));
+    let mut h = Matrix3::zeros();
+    for ((p, q), w) in p.iter().zip(q).zip(w) {
+        h += (p - p_mean) * (q - q_mean).transpose() * *w;
+    }
+    let r = best_rotation(&h);
+    p.iter().map(|p| q_mean + r * (p - p_mean)).collect()
+}
+
+/// The rotation R that maximises tr(R H): the determinant keeps it from being a reflection.
+pub(super) fn best_rotation(h: &Matrix3) -> Matrix3 {
+    let svd = h.svd(true, true);
+    let (Some(u), Some(v_t)) = (svd.u, svd.v_t) else {
+        return Matrix3::identity();
+    };
+    // The sign goes to the smallest singular value, wherever the solver put it.
+    let mut sign = Vector::repeat(1.0);
+    sign[svd.singular_values.imin()] = (v_t.determinant() * u.determinant()).signum();
+    v_t.transpose() * Matrix3::from_diagonal(&sign) * u.transpose()
+}

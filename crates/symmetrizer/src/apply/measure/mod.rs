@@ -1,0 +1,24 @@
+//! Numbers for the report: how symmetric a shape is, and what a deformation did to it.
+
+mod align;
+pub mod asymmetry;
+pub mod crossings;
+pub mod curvature;
+pub mod distortion;
+mod refine;
+mod report;
+mod search;
+mod triangles_cross;
+mod volume;
+
+pub use asymmetry::{Asymmetry, NearPlane, asymmetry, per_vertex};
+pub use crossings::{crossing_faces, new_crossings};
+pub use curvature::{curvature_correlation, mean_curvature};
+pub use distortion::{Distortion, distortion, inverted_faces};
+pub use report::{AsymmetryReport, Measure, NearReport, PlaneReport};
+
+/// The smallest of `sorted` that at least the share `p` of them do not exceed; 0 of none.
+fn percentile(sorted: &[f64], p: f64) -> f64 {
+    let rank = (p * sorted.len() as f64).ceil() as usize;
+    sorted.get(rank.max(1) - 1).copied().unwrap_or(0.0)
+}
