@@ -6,6 +6,7 @@
 pub mod context;
 pub mod error;
 pub mod geom;
+pub mod picture;
 pub mod shape;
 pub mod transform;
 
