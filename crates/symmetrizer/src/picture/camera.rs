@@ -151,7 +151,8 @@ impl Camera {
     }
 }
 
-fn unit(v: Vector) -> Option<Vector> {
+/// The unit vector along `v`, or `None` where it has no direction.
+pub(super) fn unit(v: Vector) -> Option<Vector> {
     // Dividing by the largest component first keeps tiny and huge vectors from under- or overflow.
     let v = v / v.amax();
     let n = v.norm();

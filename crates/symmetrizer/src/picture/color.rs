@@ -19,12 +19,15 @@ impl ColorMap {
         if t.is_nan() {
             return [128; 3];
         }
-        let gradient = match self {
-            Self::Heat => colorous::ORANGE_RED,
-            Self::Magma => colorous::MAGMA,
-            Self::Viridis => colorous::VIRIDIS,
+        let (gradient, end) = match self {
+            // The last bit is so dark that it hides the shading.
+            Self::Heat => (colorous::ORANGE_RED, 0.94),
+            Self::Magma => (colorous::MAGMA, 1.0),
+            Self::Viridis => (colorous::VIRIDIS, 1.0),
         };
-        gradient.eval_continuous(t.clamp(0.0, 1.0)).into_array()
+        gradient
+            .eval_continuous(t.clamp(0.0, 1.0) * end)
+            .into_array()
     }
 }
 

@@ -184,39 +184,64 @@ impl DensityPlot<'_> {
         let highest = self.modes.iter().map(|m| m.height).fold(0.0, f64::max);
         let mut order: Vec<&PlotMode> = self.modes.iter().collect();
         order.sort_by(|a, b| b.height.total_cmp(&a.height));
-        let mut taken: Vec<[f64; 4]> = Vec::new();
-        for mode in order {
-            let place = extent.place(&mode.position);
-            if !place.iter().all(|c| (0.0..=1.0).contains(c)) {
-                continue;
-            }
-            let center = [x + size * place[0], y + size * place[1]];
-            let share = (mode.height / highest).clamp(0.0, 1.0);
-            let share = if share.is_finite() { share.sqrt() } else { 0.0 };
-            let radius = 5.0 + 7.0 * share;
-            canvas.circle(center, radius, 3.5, [255; 3]);
-            canvas.circle(center, radius, 2.0, categorical(mode.color));
-            let text = Text {
-                color: [255; 3],
-                halo: Some([30, 20, 50]),
-                bold: true,
-                ..Text::new(mode.label.clone(), 0.0, 0.0, 10.5 + 5.0 * share)
-            };
-            let text = beside(text, center, radius, [x, y, size], &mut taken);
-            canvas.text(text);
+        let rings: Vec<Ring<'_>> = order
+            .into_iter()
+            .filter_map(|m| Ring::new(m, highest, extent.place(&m.position), [x, y, size]))
+            .collect();
+        for ring in &rings {
+            canvas.circle(ring.center, ring.radius, 3.5, [255; 3]);
+            canvas.circle(ring.center, ring.radius, 2.0, categorical(ring.mode.color));
+        }
+        let mut taken: Vec<[f64; 4]> = rings.iter().map(Ring::around).collect();
+        for ring in &rings {
+            canvas.text(beside(ring, [x, y, size], &mut taken));
         }
     }
 }
 
-/// Places a label beside its ring: the first side that is inside the plot and free of others.
-fn beside(
-    text: Text,
-    [cx, cy]: [f64; 2],
+/// A cluster's mark in the plot, pixels.
+struct Ring<'a> {
+    mode: &'a PlotMode,
+    center: [f64; 2],
     radius: f64,
-    [x, y, size]: [f64; 3],
-    taken: &mut Vec<[f64; 4]>,
-) -> Text {
-    let (width, gap) = (text.width(), radius + 5.0);
+    text_size: f64,
+}
+
+impl<'a> Ring<'a> {
+    /// The mark of `mode` at `place` in a plot; `None` outside of it.
+    fn new(
+        mode: &'a PlotMode,
+        highest: f64,
+        place: [f64; 2],
+        [x, y, size]: [f64; 3],
+    ) -> Option<Self> {
+        let share = (mode.height / highest).clamp(0.0, 1.0);
+        let share = if share.is_finite() { share.sqrt() } else { 0.0 };
+        let inside = place.iter().all(|c| (0.0..=1.0).contains(c));
+        inside.then_some(Self {
+            mode,
+            center: [x + size * place[0], y + size * place[1]],
+            radius: 5.0 + 7.0 * share,
+            text_size: 10.5 + 5.0 * share,
+        })
+    }
+
+    /// Left, top, right, bottom.
+    fn around(&self) -> [f64; 4] {
+        let ([x, y], r) = (self.center, self.radius);
+        [x - r, y - r, x + r, y + r]
+    }
+}
+
+/// A ring's label, on the first side that is inside the plot and free of others.
+fn beside(ring: &Ring<'_>, [x, y, size]: [f64; 3], taken: &mut Vec<[f64; 4]>) -> Text {
+    let text = Text {
+        color: [255; 3],
+        halo: Some([30, 20, 50]),
+        ..Text::new(ring.mode.label.clone(), 0.0, 0.0, ring.text_size).bold()
+    };
+    let [cx, cy] = ring.center;
+    let (width, gap) = (text.width(), ring.radius + 5.0);
     let places = [
         [cx + gap, cy + 0.35 * text.size],
         [cx - gap - width, cy + 0.35 * text.size],
@@ -235,7 +260,6 @@ fn beside(
     let fallback = places.into_iter().find(|p| inside(rect(*p)));
     let at = free.or(fallback).unwrap_or(places[0]);
     taken.push(rect(at));
-    taken.push([cx - radius, cy - radius, cx + radius, cy + radius]);
     Text {
         x: at[0],
         y: at[1],

@@ -15,6 +15,10 @@ const RINGS: [f64; 4] = [0.12, 0.3, 0.6, 1.0];
 /// How dark full occlusion makes the clay.
 const OCCLUSION: f64 = 1.35;
 
+/// Linear tints of the main light, slightly warm, and of all others, slightly cool.
+const SUN: [f64; 3] = [1.03, 1.0, 0.95];
+const SKY: [f64; 3] = [0.96, 1.0, 1.06];
+
 /// Linear RGB of clay with the linear colour `albedo` and the unit `normal` (right, up, towards
 /// the eye), of whose surroundings the share `open` in 0..=1 is free.
 pub(super) fn shade(normal: &Vector, albedo: [f64; 3], open: f64) -> [f64; 3] {
@@ -26,21 +30,38 @@ pub(super) fn shade(normal: &Vector, albedo: [f64; 3], open: f64) -> [f64; 3] {
     let sides = toward(1.0, 0.1, -0.15).max(toward(-1.0, 0.1, -0.15));
     let rim = sides.max(0.0).powi(3);
     let soft = open * open;
-    let light = 0.76 * key * (0.35 + 0.65 * open) + 0.16 * fill * open + 0.19 * sky * soft;
-    let shine = 0.05 * toward(0.0, 0.45, 0.9).max(0.0).powi(24);
-    albedo.map(|a| a * (light + 0.17 * rim * soft + 0.02) * 1.06 + shine * open)
+    let sun = 0.8 * key * (0.35 + 0.65 * open);
+    let rest = 0.16 * fill * open + 0.2 * sky * soft + 0.18 * rim * soft + 0.02;
+    let shine = 0.05 * toward(0.0, 0.45, 0.9).max(0.0).powi(24) * open;
+    std::array::from_fn(|i| soften(albedo[i] * (sun * SUN[i] + rest * SKY[i]) + shine))
 }
 
-/// The share of the surroundings of a sample that is free of other surface, estimated from the
-/// depths around it within `reach` samples.
-pub(super) fn openness(sights: &Sights, x: usize, y: usize, normal: &Vector, reach: f64) -> f64 {
-    let here = sights.at(x, y).depth;
-    let mut blocked = 0.0;
-    for ring in RINGS {
-        for k in 0..DIRECTIONS {
-            let angle = std::f64::consts::TAU * (k as f64 + 0.5) / DIRECTIONS as f64;
-            let (dx, dy) = (reach * ring * angle.cos(), reach * ring * angle.sin());
-            let (dx, dy) = (dx.round(), dy.round());
+/// Where occluders of a sample are looked for: whole samples to the right and down.
+pub(super) struct Surroundings {
+    reach: f64,
+    offsets: Vec<(f64, f64)>,
+}
+
+impl Surroundings {
+    /// The surroundings within `reach` samples.
+    pub fn new(reach: f64) -> Self {
+        let mut offsets = Vec::new();
+        for ring in RINGS {
+            for k in 0..DIRECTIONS {
+                let angle = std::f64::consts::TAU * (k as f64 + 0.5) / DIRECTIONS as f64;
+                let (dy, dx) = angle.sin_cos();
+                offsets.push(((reach * ring * dx).round(), (reach * ring * dy).round()));
+            }
+        }
+        Self { reach, offsets }
+    }
+
+    /// The share of the surroundings of a sample that is free of other surface, estimated from the
+    /// depths around it.
+    pub fn openness(&self, sights: &Sights, x: usize, y: usize, normal: &Vector) -> f64 {
+        let here = sights.at(x, y).depth;
+        let mut blocked = 0.0;
+        for &(dx, dy) in &self.offsets {
             let (px, py) = (x as f64 + dx, y as f64 + dy);
             if px < 0.0 || py < 0.0 || px >= sights.width as f64 || py >= sights.height as f64 {
                 continue;
@@ -48,12 +69,13 @@ pub(super) fn openness(sights: &Sights, x: usize, y: usize, normal: &Vector, rea
             let other = sights.at(px as usize, py as usize);
             if other.hits() {
                 // Right, up, towards the eye.
-                blocked += block(&Vector::new(dx, -dy, here - other.depth), normal, reach);
+                let offset = Vector::new(dx, -dy, here - other.depth);
+                blocked += block(&offset, normal, self.reach);
             }
         }
+        let share = blocked / self.offsets.len() as f64;
+        (1.0 - OCCLUSION * share).clamp(0.0, 1.0)
     }
-    let share = blocked / (DIRECTIONS * RINGS.len()) as f64;
-    (1.0 - OCCLUSION * share).clamp(0.0, 1.0)
 }
 
 /// How much the surface at `offset` blocks, in 0..=1: what is far away in depth does not.
@@ -63,6 +85,16 @@ fn block(offset: &Vector, normal: &Vector, reach: f64) -> f64 {
     let near = 1.0 / (1.0 + (distance / reach).powi(2) * 0.5);
     let fade = (1.0 - (offset.z.abs() / (3.0 * reach))).clamp(0.0, 1.0);
     (cosine - 0.1).max(0.0) / 0.9 * near * fade * 1.6
+}
+
+/// Bends what is too bright below white, so that pale colours keep their shading.
+fn soften(c: f64) -> f64 {
+    const KNEE: f64 = 0.6;
+    if c <= KNEE {
+        c
+    } else {
+        KNEE + (1.0 - KNEE) * ((c - KNEE) / (1.0 - KNEE)).tanh()
+    }
 }
 
 /// sRGB in 0..=1 to linear.

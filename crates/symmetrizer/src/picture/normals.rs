@@ -1,6 +1,7 @@
 //! Shading normals: smooth over a smooth surface, split where faces meet at a sharp crease.
 
 use crate::geom::{Point, Vector};
+use crate::picture::camera::unit;
 
 /// Cosine of the crease angle, 40 degrees: an edge where the faces turn more than this looks sharp.
 const CREASE_COS: f64 = 0.766;
@@ -31,7 +32,7 @@ pub(super) fn corner_normals(positions: &[Point], triangles: &[[u32; 3]]) -> Vec
         }
         for (corner, &group) in fan.iter().zip(&groups) {
             let own = faces[corner.face as usize];
-            let normal = unit(&sums[group]).or_else(|| unit(&own));
+            let normal = unit(sums[group]).or_else(|| unit(own));
             normals[corner.face as usize][corner.number as usize] = normal.unwrap_or_default();
         }
     }
@@ -107,10 +108,6 @@ fn is_smooth(faces: &[Vector], a: Corner, b: Corner) -> bool {
 fn area_vector(positions: &[Point], t: &[u32; 3]) -> Vector {
     let [a, b, c] = t.map(|v| positions[v as usize]);
     0.5 * (b - a).cross(&(c - a))
-}
-
-fn unit(v: &Vector) -> Option<Vector> {
-    v.try_normalize(0.0)
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //! shape.
 
 use crate::geom::{Point, Vector};
-use crate::picture::camera::{Camera, View};
+use crate::picture::camera::{Camera, View, unit};
 use crate::picture::light::to_linear;
 use crate::picture::stance::Stance;
 use crate::transform::isometry::Plane;
@@ -13,8 +13,8 @@ const SHEET: f64 = 0.26;
 const OUTLINE: f64 = 0.9;
 /// How much the line where a sheet cuts the shape hides of it.
 const CUT: f64 = 0.75;
-/// How far a sheet reaches beyond the shape, as a share of the shape's extent.
-const MARGIN: f64 = 1.1;
+/// How far a sheet reaches beyond the shape, as a share of half the shape's extent.
+const MARGIN: f64 = 0.06;
 
 /// Something translucent in front of a sample: depth, linear colour, opacity.
 #[derive(Debug, Clone, Copy)]
@@ -33,6 +33,24 @@ pub(super) struct Sheet {
     half_line: f64,
 }
 
+/// The corners, in order, of the rectangle of `plane` beside the vertices; `None` where the plane
+/// has no place or direction, or there are no vertices.
+pub(super) fn corners(plane: &Plane, positions: &[Point]) -> Option<[Point; 4]> {
+    let normal = unit(plane.normal)?;
+    let stance = Stance::about(Some(plane), positions);
+    let view = View::new(normal, stance.up);
+    let origin = Point::from(normal * (plane.offset / plane.normal.norm()));
+    let (center, half) = view.bounds(positions.iter(), &origin)?;
+    // The longer side sets the margin, so that it is even all around.
+    let grow = MARGIN * half.x.max(half.y);
+    let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    Some(signs.map(|[sx, sy]| {
+        let x = center.x + sx * (half.x + grow);
+        let y = center.y + sy * (half.y + grow);
+        origin + view.right() * x + view.up * y
+    }))
+}
+
 impl Sheet {
     /// The part of `plane` beside the vertices, or `None` where it has no place or direction.
     pub fn new(
@@ -42,24 +60,7 @@ impl Sheet {
         camera: &Camera,
         half_line: f64,
     ) -> Option<Self> {
-        let normal = plane.normal.try_normalize(1e-12)?;
-        let stance = Stance::about(Some(plane), positions);
-        let view = View::new(normal, stance.up);
-        let origin = Point::from(normal * (plane.offset / plane.normal.norm()));
-        let (center, half) = view.bounds(positions.iter(), &origin)?;
-        // The longer side sets the margin, so that it is even all around.
-        let grow = (MARGIN - 1.0) * half.x.max(half.y);
-        let corner = |sx: f64, sy: f64| {
-            let x = center.x + sx * (half.x + grow);
-            let y = center.y + sy * (half.y + grow);
-            camera.project(&(origin + view.right() * x + view.up * y))
-        };
-        let corners = [
-            corner(-1.0, -1.0),
-            corner(1.0, -1.0),
-            corner(1.0, 1.0),
-            corner(-1.0, 1.0),
-        ];
+        let corners = corners(plane, positions)?.map(|c| camera.project(&c));
         let finite = corners.iter().all(|c| c.iter().all(|x| x.is_finite()));
         finite.then_some(Self {
             color: color.map(|c| to_linear(f64::from(c) / 255.0)),
@@ -87,7 +88,7 @@ impl Sheet {
     /// The line on the shape's surface at a sample position with depth, where the sheet cuts it.
     pub fn cut(&self, at: &Vector) -> Option<Layer> {
         let [o, u, _, v] = self.corners;
-        let normal = (u - o).cross(&(v - o)).try_normalize(1e-9)?;
+        let normal = unit((u - o).cross(&(v - o)))?;
         let near = normal.dot(&(at - o)).abs() <= self.half_line;
         near.then_some(Layer {
             depth: at.z,

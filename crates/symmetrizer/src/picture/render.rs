@@ -4,8 +4,8 @@ use image::{Rgba, RgbaImage};
 use rayon::prelude::*;
 
 use crate::geom::{Point, Vector};
-use crate::picture::camera::Camera;
-use crate::picture::light::{openness, shade, to_linear, to_srgb};
+use crate::picture::camera::{Camera, unit};
+use crate::picture::light::{Surroundings, shade, to_linear, to_srgb};
 use crate::picture::normals::corner_normals;
 use crate::picture::planes::{Layer, Sheet};
 use crate::picture::visible::{Sights, barycentric};
@@ -84,7 +84,7 @@ struct Painter<'a> {
     normals: Vec<[Vector; 3]>,
     sights: Sights,
     sheets: Vec<Sheet>,
-    reach: f64,
+    surroundings: Surroundings,
 }
 
 impl<'a> Painter<'a> {
@@ -116,7 +116,7 @@ impl<'a> Painter<'a> {
             triangles,
             projected,
             sights: samples,
-            reach: REACH * shorter,
+            surroundings: Surroundings::new(REACH * shorter),
         }
     }
 
@@ -160,7 +160,7 @@ impl<'a> Painter<'a> {
             let c = self.color(*v as usize);
             albedo = std::array::from_fn(|i| albedo[i] + w * f64::from(c[i]));
         }
-        let open = openness(&self.sights, x, y, &normal, self.reach);
+        let open = self.surroundings.openness(&self.sights, x, y, &normal);
         shade(&normal, albedo.map(|a| to_linear(a.clamp(0.0, 1.0))), open)
     }
 
@@ -183,7 +183,7 @@ impl<'a> Painter<'a> {
         }
         // At a silhouette the smooth normal may point just beyond it.
         n.z = n.z.max(0.0);
-        n.try_normalize(1e-12).unwrap_or_else(Vector::z)
+        unit(n).unwrap_or_else(Vector::z)
     }
 }
 

@@ -7,7 +7,7 @@ use crate::picture::canvas::{Anchor, Canvas, GREY, Text};
 use crate::picture::color::ColorScale;
 use crate::picture::density::DensityPlot;
 use crate::picture::render::{Background, Scene, render};
-use crate::picture::sheet::{LEGEND, MARGIN, caption, heat_scale, matching_cameras, used};
+use crate::picture::sheet::{LEGEND, MARGIN, caption, heat_scale, matching_cameras, shown};
 use crate::picture::stance::{Angle, Stance};
 use crate::transform::isometry::Plane;
 
@@ -176,8 +176,11 @@ impl Layout {
         let stance = report.stance();
         let angles = ANGLES.iter().copied().chain([Angle::Front]);
         let views: Vec<View> = angles.map(|a| stance.view(a)).collect();
-        let mut points = used(report.before.positions, report.triangles);
-        points.extend(used(report.after.positions, report.triangles));
+        let states = [&report.before, &report.after];
+        let points: Vec<Point> = states
+            .iter()
+            .flat_map(|p| shown(p.positions, report.triangles, p.planes))
+            .collect();
         let columns = views.len() as u32 + u32::from(report.has_density());
         let width = (WIDTH - 2 * MARGIN - ROW_NAME - (columns - 1) * GAP) / columns;
         let size = [width, (f64::from(width) * tallness(&views, &points)) as u32];
@@ -198,7 +201,7 @@ impl Layout {
 
     /// The middle of the top side of the legend's bar, below the coloured views.
     fn legend(&self) -> [f64; 2] {
-        let right = self.column(ANGLES.len()) - GAP;
+        let right = self.column(ANGLES.len()).saturating_sub(GAP);
         [
             f64::from(self.column(0) + right) / 2.0,
             f64::from(self.top + 2 * self.size[1] + GAP) + 42.0,

@@ -4,6 +4,7 @@ use crate::geom::{Point, Vector};
 use crate::picture::camera::{Camera, MAX_PIXELS, View};
 use crate::picture::canvas::{Anchor, Canvas, GREY, Text};
 use crate::picture::color::{ColorMap, ColorScale};
+use crate::picture::planes::corners;
 use crate::picture::render::{Background, Scene, render};
 use crate::picture::stance::{Angle, Stance};
 use crate::transform::isometry::Plane;
@@ -79,7 +80,8 @@ pub fn render_sheet(sheet: &Sheet<'_>) -> Canvas {
 fn draw_views(canvas: &mut Canvas, sheet: &Sheet<'_>, angles: &[Angle], size: [u32; 2], y: u32) {
     let stance = Stance::about(sheet.planes.first().map(|p| &p.0), sheet.positions);
     let views: Vec<View> = angles.iter().map(|&a| stance.view(a)).collect();
-    let cameras = matching_cameras(&views, &used(sheet.positions, sheet.triangles), size);
+    let shown = shown(sheet.positions, sheet.triangles, sheet.planes);
+    let cameras = matching_cameras(&views, &shown, size);
     let colors = sheet.scalar.map(|f| f.scale().colors(f.values));
     let scene = Scene {
         positions: sheet.positions,
@@ -123,8 +125,24 @@ fn high_value<'a>(values: impl IntoIterator<Item = &'a [f64]>) -> f64 {
     high.copied().filter(|h| *h > 0.0).unwrap_or(1.0)
 }
 
+/// What the camera must see: the vertices that triangles use, and the corners of the planes.
+pub(super) fn shown(
+    positions: &[Point],
+    triangles: &[[u32; 3]],
+    planes: &[(Plane, [u8; 3])],
+) -> Vec<Point> {
+    let mut shown = used(positions, triangles);
+    let sheets: Vec<Point> = planes
+        .iter()
+        .filter_map(|(plane, _)| corners(plane, &shown))
+        .flatten()
+        .collect();
+    shown.extend(sheets);
+    shown
+}
+
 /// The positions that triangles use; loose vertices shall not move the camera.
-pub(super) fn used(positions: &[Point], triangles: &[[u32; 3]]) -> Vec<Point> {
+fn used(positions: &[Point], triangles: &[[u32; 3]]) -> Vec<Point> {
     let mut is_used = vec![false; positions.len()];
     for &v in triangles.iter().flatten() {
         if let Some(u) = is_used.get_mut(v as usize) {
@@ -145,8 +163,6 @@ pub(super) fn matching_cameras(views: &[View], points: &[Point], size: [u32; 2])
     let half = boxes
         .iter()
         .fold([0.0_f64; 2], |h, (_, b)| [h[0].max(b.x), h[1].max(b.y)]);
-    // Room for the sheets of mirror planes around the shape.
-    let half = half.map(|h| h + 0.1 * half[0].max(half[1]));
     let camera = |(view, (center, _)): (&View, &(Vector, Vector))| {
         let center = origin + view.right() * center.x + view.up * center.y;
         Camera::showing(*view, center, half, size[0], size[1])

@@ -2,7 +2,7 @@
 //! plane and the shape.
 
 use crate::geom::{Point, Vector, any_orthogonal, sorted_eigen};
-use crate::picture::camera::View;
+use crate::picture::camera::{View, unit};
 use crate::transform::isometry::Plane;
 
 /// A file axis counts as lying in the mirror plane when the sine of its angle to it is below this.
@@ -61,7 +61,7 @@ impl Stance {
     /// in-plane direction of the shape; the front is the side to which the upper part (a head)
     /// leans, else the file's +z or +x side. Without a plane: y up, +z front.
     pub fn about(plane: Option<&Plane>, positions: &[Point]) -> Self {
-        let Some(normal) = plane.and_then(|p| p.normal.try_normalize(1e-12)) else {
+        let Some(normal) = plane.and_then(|p| unit(p.normal)) else {
             return Self {
                 up: Vector::y(),
                 front: Vector::z(),
@@ -102,9 +102,8 @@ fn upright(normal: &Vector, positions: &[Point]) -> Vector {
             return in_plane(axis).normalize();
         }
     }
-    let longest = in_plane(main_axis(positions, in_plane))
-        .try_normalize(1e-9)
-        .unwrap_or_else(|| any_orthogonal(normal));
+    let longest =
+        unit(in_plane(main_axis(positions, in_plane))).unwrap_or_else(|| any_orthogonal(normal));
     // The sign that has more of y, or of z where y says nothing.
     let upness = longest.y + 1e-3 * longest.z;
     if upness < 0.0 { -longest } else { longest }

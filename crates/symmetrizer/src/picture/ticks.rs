@@ -23,11 +23,12 @@ pub fn labelled_ticks(low: f64, high: f64, count: usize) -> Vec<(f64, String)> {
         let plain = v.abs().max(step) < 1e6 && step >= 1e-6;
         // Adding 0.0 turns -0.0 into 0.0.
         let v = v + 0.0;
-        if plain {
+        let text = if plain {
             format!("{v:.decimals$}")
         } else {
             format!("{v:.1e}")
-        }
+        };
+        text.replace('-', "\u{2212}")
     };
     values.into_iter().map(|v| (v, label(v))).collect()
 }
@@ -63,7 +64,7 @@ mod tests {
             labels(0.0, 2.5, 5),
             ["0.0", "0.5", "1.0", "1.5", "2.0", "2.5"]
         );
-        assert_eq!(labels(-0.13, 0.27, 4), ["-0.1", "0.0", "0.1", "0.2"]);
+        assert_eq!(labels(-0.13, 0.27, 4), ["\u{2212}0.1", "0.0", "0.1", "0.2"]);
         assert_eq!(labels(0.0, 0.3, 3), ["0.0", "0.1", "0.2", "0.3"]);
         assert_eq!(labels(0.0, 40.0, 4), ["0", "10", "20", "30", "40"]);
     }

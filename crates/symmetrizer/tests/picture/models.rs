@@ -74,7 +74,10 @@ pub fn load(name: &str) -> Option<Model> {
     match std::fs::read_to_string(&path) {
         Ok(text) => Some(parse(&text)),
         Err(e) => {
-            eprintln!("SKIPPED: {}: {e} (set SYMMETRIZER_DATA)", path.display());
+            #[allow(clippy::print_stderr)]
+            {
+                eprintln!("SKIPPED: {}: {e} (set SYMMETRIZER_DATA)", path.display());
+            }
             None
         }
     }

@@ -145,7 +145,9 @@ fn odd_votes_are_plotted_without_panic() {
                 title: "odd",
             };
             let svg = plot.to_svg(120).unwrap();
-            assert!(!svg.contains("NaN") && !svg.contains("inf"));
+            // The base64 text of a picture may contain any letters.
+            let mut lines = svg.lines().filter(|l| !l.starts_with("<image"));
+            assert!(lines.all(|l| !l.contains("NaN") && !l.contains("\"inf")));
             parse(&svg);
             decode(&plot.to_png(1).unwrap());
         }
