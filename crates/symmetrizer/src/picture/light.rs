@@ -59,7 +59,7 @@ impl Surroundings {
     /// The share of the surroundings of a sample that is free of other surface, estimated from the
     /// depths around it.
     pub fn openness(&self, sights: &Sights, x: usize, y: usize, normal: &Vector) -> f64 {
-        let here = sights.at(x, y).depth;
+        let here = sights.at(x, y).depth();
         let mut blocked = 0.0;
         for &(dx, dy) in &self.offsets {
             let (px, py) = (x as f64 + dx, y as f64 + dy);
@@ -69,7 +69,7 @@ impl Surroundings {
             let other = sights.at(px as usize, py as usize);
             if other.hits() {
                 // Right, up, towards the eye.
-                let offset = Vector::new(dx, -dy, here - other.depth);
+                let offset = Vector::new(dx, -dy, here - other.depth());
                 blocked += block(&offset, normal, self.reach);
             }
         }

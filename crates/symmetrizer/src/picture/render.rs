@@ -46,20 +46,15 @@ pub struct Scene<'a> {
 pub fn render(scene: &Scene<'_>, camera: &Camera, background: Background) -> RgbaImage {
     let painter = Painter::new(scene, camera);
     let (width, height) = (camera.width(), camera.height());
-    let rows: Vec<Vec<[f64; 4]>> = (0..height * SAMPLES)
+    let rows: Vec<Vec<Rgba<u8>>> = (0..height)
         .into_par_iter()
-        .map(|y| painter.row(y as usize))
+        .map(|y| {
+            (0..width)
+                .map(|x| painter.pixel(x, y, background))
+                .collect()
+        })
         .collect();
-    RgbaImage::from_fn(width, height, |x, y| {
-        let mut sum = [0.0; 4];
-        for sy in 0..SAMPLES {
-            for sx in 0..SAMPLES {
-                let sample = rows[(y * SAMPLES + sy) as usize][(x * SAMPLES + sx) as usize];
-                sum = std::array::from_fn(|i| sum[i] + sample[i]);
-            }
-        }
-        encode(sum.map(|c| c / f64::from(SAMPLES * SAMPLES)), background)
-    })
+    RgbaImage::from_fn(width, height, |x, y| rows[y as usize][x as usize])
 }
 
 /// Linear premultiplied colour to a pixel.
@@ -120,14 +115,21 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// The samples of a row as linear premultiplied colours.
-    fn row(&self, y: usize) -> Vec<[f64; 4]> {
-        (0..self.sights.width).map(|x| self.sample(x, y)).collect()
+    fn pixel(&self, x: u32, y: u32, background: Background) -> Rgba<u8> {
+        let mut sum = [0.0; 4];
+        for sy in 0..SAMPLES {
+            for sx in 0..SAMPLES {
+                let sample = self.sample((x * SAMPLES + sx) as usize, (y * SAMPLES + sy) as usize);
+                sum = std::array::from_fn(|i| sum[i] + sample[i]);
+            }
+        }
+        encode(sum.map(|c| c / f64::from(SAMPLES * SAMPLES)), background)
     }
 
+    /// The linear premultiplied colour of a sample.
     fn sample(&self, x: usize, y: usize) -> [f64; 4] {
         let sight = self.sights.at(x, y);
-        let at = Vector::new(x as f64 + 0.5, y as f64 + 0.5, sight.depth);
+        let at = Vector::new(x as f64 + 0.5, y as f64 + 0.5, sight.depth());
         if !sight.hits() {
             return self.behind_sheets(&at, [0.0; 4]);
         }

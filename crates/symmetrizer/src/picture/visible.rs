@@ -10,24 +10,29 @@ use crate::geom::Vector;
 /// Rows that one task fills; fixed, so that the work is cut alike for any number of threads.
 const BAND: usize = 64;
 
-/// What one sample sees.
+/// What one sample sees; small, because a large picture has very many.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sight {
     /// Depth, in samples, away from the eye; infinite where nothing is seen.
-    pub depth: f64,
+    depth: f32,
     /// The triangle, meaningless where nothing is seen.
     pub face: u32,
 }
 
 impl Sight {
     const NOTHING: Self = Self {
-        depth: f64::INFINITY,
+        depth: f32::INFINITY,
         face: u32::MAX,
     };
 
     /// Whether the sample sees the shape.
     pub fn hits(&self) -> bool {
-        self.depth < f64::INFINITY
+        self.depth < f32::INFINITY
+    }
+
+    /// Depth, in samples, away from the eye; infinite where nothing is seen.
+    pub fn depth(&self) -> f64 {
+        self.depth.into()
     }
 }
 
@@ -91,7 +96,7 @@ fn fill(rows: &mut [Sight], width: usize, first_row: usize, face: u32, corners: 
             // A sample on an edge belongs to both sides, so that no gap opens between them.
             if b.iter().all(|w| *w >= -1e-12) {
                 let depth = b[0] * corners[0].z + b[1] * corners[1].z + b[2] * corners[2].z;
-                let sight = &mut rows[y * width + x];
+                let (depth, sight) = (depth as f32, &mut rows[y * width + x]);
                 if depth < sight.depth {
                     *sight = Sight { depth, face };
                 }
