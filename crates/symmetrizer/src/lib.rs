@@ -13,6 +13,7 @@ pub mod geom;
 pub mod optimize;
 pub mod pair;
 pub mod patch;
+pub mod picture;
 pub mod sample;
 pub mod shape;
 pub mod transform;

@@ -1,0 +1,258 @@
+//! Pages: SVG that parses, PNG that decodes, text that is escaped, plots of odd votes.
+
+use image::RgbaImage;
+use resvg::usvg;
+use symmetrizer::geom::Vector;
+use symmetrizer::picture::canvas::Text;
+use symmetrizer::picture::{
+    Angle, Canvas, DensityPlot, Extent, Panel, PlotMode, ReportPicture, ScalarField, Sheet,
+    categorical, render_sheet,
+};
+use symmetrizer::transform::isometry::Plane;
+
+use crate::models::{Model, sphere};
+
+fn decode(png: &[u8]) -> RgbaImage {
+    image::load_from_memory(png).unwrap().to_rgba8()
+}
+
+fn parse(svg: &str) -> usvg::Tree {
+    usvg::Tree::from_str(svg, &usvg::Options::default()).unwrap()
+}
+
+fn images(group: &usvg::Group) -> usize {
+    let count = |node: &usvg::Node| match node {
+        usvg::Node::Image(_) => 1,
+        usvg::Node::Group(g) => images(g),
+        _ => 0,
+    };
+    group.children().iter().map(count).sum()
+}
+
+fn mode(position: [f64; 2], height: f64, color: usize) -> PlotMode {
+    PlotMode {
+        position,
+        label: format!("<{color}>"),
+        height,
+        color,
+    }
+}
+
+/// The brightest place of a plot of `side` pixels.
+fn brightest(plot: &DensityPlot<'_>, side: u32) -> [u32; 2] {
+    let image = decode(&plot.to_png(side).unwrap());
+    // The page around the plot is white; magma's brightest is pale yellow.
+    let plotted = |p: &[u8; 4]| p[2] < 200;
+    let brightness = |p: &[u8; 4]| u32::from(p[0]) + u32::from(p[1]) + u32::from(p[2]);
+    let bright = image.enumerate_pixels().filter(|(_, _, p)| plotted(&p.0));
+    let best = bright.max_by_key(|(_, _, p)| brightness(&p.0)).unwrap();
+    [best.0, best.1]
+}
+
+#[test]
+fn every_text_becomes_valid_svg() {
+    for text in [
+        "<&>\"'",
+        "</text></svg>",
+        "a\u{0}b\u{1}\u{fffe}\n\t\u{202e}",
+        "",
+        "兔 🐇 e\u{301}",
+    ] {
+        let mut canvas = Canvas::new(200, 50);
+        canvas.text(Text::new(text, 5.0, 20.0, 12.0));
+        parse(&canvas.to_svg().unwrap());
+        decode(&canvas.to_png().unwrap());
+    }
+}
+
+#[test]
+fn a_text_fits_its_width() {
+    let long = "a very long line of words ".repeat(20);
+    let text = Text::new(long, 0.0, 0.0, 20.0).within(300.0);
+    assert!(text.width() <= 300.0 && text.content.ends_with('…'));
+    let short = Text::new("short", 0.0, 0.0, 20.0);
+    assert_eq!(short.clone().within(300.0), short);
+}
+
+#[test]
+fn text_is_drawn_with_the_font_of_the_library() {
+    let mut canvas = Canvas::new(200, 50);
+    let empty = canvas.to_image().unwrap();
+    canvas.text(Text::new("mean 2.03 % → 0.08 %", 5.0, 30.0, 14.0));
+    let drawn = canvas.to_image().unwrap();
+    let differ = empty.pixels().zip(drawn.pixels()).filter(|(a, b)| a != b);
+    assert!(differ.count() > 300);
+}
+
+#[test]
+fn a_picture_is_on_the_page_as_it_is() {
+    let mut canvas = Canvas::new(30, 30);
+    let picture = RgbaImage::from_fn(10, 10, |x, y| image::Rgba([x as u8, y as u8, 77, 255]));
+    canvas.image(5, 7, picture.clone());
+    let page = canvas.to_image().unwrap();
+    let part = image::imageops::crop_imm(&page, 5, 7, 10, 10).to_image();
+    assert_eq!(part, picture);
+    assert_eq!(images(parse(&canvas.to_svg().unwrap()).root()), 1);
+}
+
+#[test]
+fn the_heat_map_peaks_where_the_votes_are() {
+    let axes = Extent {
+        x: [-1.0, 1.0],
+        y: [-1.0, 1.0],
+    };
+    let votes = [[0.5, 0.5], [0.5, 0.5], [-0.5, -0.5]];
+    let plot = |weights| DensityPlot {
+        points: &votes,
+        weights,
+        bandwidth: 0.1,
+        axes: Some(axes),
+        ..DensityPlot::default()
+    };
+    // Up is up: the upper right quarter holds the heavier votes.
+    let [x, y] = brightest(&plot(&[]), 300);
+    assert!(x > 200 && y < 100, "{x} {y}");
+    let [x, y] = brightest(&plot(&[1.0, 1.0, 9.0]), 300);
+    assert!(x < 150 && y > 150, "{x} {y}");
+}
+
+#[test]
+fn odd_votes_are_plotted_without_panic() {
+    let nan = f64::NAN;
+    let odd = [
+        [nan, 0.0],
+        [0.0, f64::INFINITY],
+        [1e300, -1e300],
+        [f64::MAX, f64::MIN],
+    ];
+    let modes = [
+        mode([nan, 0.0], nan, 3),
+        mode([0.0, 0.0], -1.0, usize::MAX),
+        mode([0.0, 0.0], 0.0, 1),
+    ];
+    let flat = Extent {
+        x: [0.0, 0.0],
+        y: [nan, 1.0],
+    };
+    for points in [&[][..], &odd[..], &odd[..2], &[[0.0; 2]; 3][..]] {
+        for bandwidth in [0.1, 0.0, -1.0, nan, 1e300] {
+            let plot = DensityPlot {
+                points,
+                weights: &[nan, -1.0],
+                modes: &modes,
+                bandwidth,
+                axes: (bandwidth > 0.05).then_some(flat),
+                title: "odd",
+            };
+            let svg = plot.to_svg(120).unwrap();
+            // The base64 text of a picture may contain any letters.
+            let mut lines = svg.lines().filter(|l| !l.starts_with("<image"));
+            assert!(lines.all(|l| !l.contains("NaN") && !l.contains("\"inf")));
+            parse(&svg);
+            decode(&plot.to_png(1).unwrap());
+        }
+    }
+}
+
+fn report<'a>(
+    before: &'a Model,
+    after: &'a Model,
+    scalar: &'a [f64],
+    planes: &'a [(Plane, [u8; 3])],
+    density: Option<DensityPlot<'a>>,
+) -> ReportPicture<'a> {
+    ReportPicture {
+        title: "egg & <spoon>",
+        subtitle: "mean asymmetry 2 % → 0 %",
+        before: Panel {
+            positions: &before.positions,
+            scalar,
+            planes,
+            density,
+        },
+        after: Panel {
+            positions: &after.positions,
+            ..Panel::default()
+        },
+        triangles: &before.triangles,
+        scale_max: None,
+        scale_label: "asymmetry, % of D",
+    }
+}
+
+#[test]
+fn a_report_is_a_page_with_every_panel() {
+    let before = sphere(12);
+    let after = before.map(|p| symmetrizer::geom::Point::new(p.x, 1.5 * p.y, p.z));
+    let scalar: Vec<f64> = before.positions.iter().map(|p| p.x + 1.0).collect();
+    let planes = [(
+        Plane {
+            normal: Vector::x(),
+            offset: 0.0,
+        },
+        categorical(0),
+    )];
+    let plot = DensityPlot::default();
+    let page = report(&before, &after, &scalar, &planes, Some(plot));
+    let tree = parse(&page.to_svg().unwrap());
+    assert_eq!(images(tree.root()), 9);
+    let image = decode(&page.to_png().unwrap());
+    assert_eq!(image.width(), 1800);
+    let empty = Model {
+        positions: Vec::new(),
+        triangles: before.triangles.clone(),
+    };
+    decode(
+        &report(&empty, &after, &[f64::NAN], &[], None)
+            .to_png()
+            .unwrap(),
+    );
+    decode(&ReportPicture::default().to_png().unwrap());
+}
+
+#[test]
+fn one_thread_and_two_make_the_same_page() {
+    let model = sphere(10);
+    let scalar: Vec<f64> = model.positions.iter().map(|p| p.y).collect();
+    let votes = [[0.1, 0.2], [0.3, -0.1]];
+    let plot = DensityPlot {
+        points: &votes,
+        bandwidth: 0.05,
+        ..DensityPlot::default()
+    };
+    let make = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| {
+            report(&model, &model, &scalar, &[], Some(plot))
+                .to_png()
+                .unwrap()
+        })
+    };
+    assert_eq!(make(1), make(2));
+}
+
+#[test]
+fn a_sheet_has_one_picture_for_each_angle() {
+    let model = sphere(10);
+    let values: Vec<f64> = model.positions.iter().map(|p| p.y).collect();
+    for count in 0..=Angle::ALL.len() {
+        let sheet = Sheet {
+            title: "ball",
+            positions: &model.positions,
+            triangles: &model.triangles,
+            scalar: Some(ScalarField {
+                values: &values,
+                max: Some(1.0),
+                label: "height",
+            }),
+            planes: &[],
+            angles: &Angle::ALL[..count],
+            size: [60, 50],
+        };
+        let canvas = render_sheet(&sheet);
+        assert_eq!(images(parse(&canvas.to_svg().unwrap()).root()), count);
+    }
+}
