@@ -2,6 +2,7 @@
 //! on, points on a surface, closest points, curvature, files, generated models.
 
 pub mod closest;
+pub mod io;
 pub mod mesh;
 pub mod surface;
 
