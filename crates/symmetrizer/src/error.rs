@@ -82,7 +82,7 @@ impl Error {
         }
     }
 
-    /// The same error with the file's name, where it is an input error without one.
+    /// The same error with the file's name, where it is an input or system error without one.
     pub fn in_file(self, path: impl Into<PathBuf>) -> Self {
         match self {
             Self::Input {
@@ -94,6 +94,9 @@ impl Error {
                 what,
                 hint,
             },
+            Self::Io { path: none, source } if none.as_os_str().is_empty() => {
+                Self::io(path, source)
+            }
             other => other,
         }
     }

@@ -3,6 +3,7 @@
 
 pub mod closest;
 pub mod curvature;
+pub mod io;
 pub mod mesh;
 pub mod surface;
 

@@ -1,84 +1,39 @@
-//! Helpers of the tests of `apply::measure`: models on disk, generated shapes, motions.
-#![allow(dead_code, clippy::print_stderr)]
+//! What the test files share: models on disk, generated shapes, motions.
+#![allow(dead_code)] // No test file uses all of it.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use symmetrizer::geom::{Point, Vector, exp_rotation};
-use symmetrizer::shape::Mesh;
 use symmetrizer::shape::surface::Working;
+use symmetrizer::shape::{Mesh, io};
 
-/// A mesh of an OBJ (`v`, `f`) or OFF file.
-pub fn load(path: &std::path::Path) -> Mesh {
-    let text = std::fs::read_to_string(path).expect("a readable file");
-    if path.extension().is_some_and(|e| e == "off") {
-        parse_off(&text)
-    } else {
-        parse_obj(&text)
-    }
-}
-
-fn parse_obj(text: &str) -> Mesh {
-    let mut mesh = Mesh::default();
-    for line in text.lines() {
-        let mut words = line.split_whitespace();
-        match words.next() {
-            Some("v") => mesh.positions.push(point(words)),
-            Some("f") => {
-                let index = |w: &str| w.split('/').next().unwrap().parse::<u32>().unwrap() - 1;
-                mesh.polygons.push(&words.map(index).collect::<Vec<_>>());
-            }
-            _ => {}
-        }
-    }
-    mesh
-}
-
-fn parse_off(text: &str) -> Mesh {
-    let mut lines = text
-        .lines()
-        .map(|l| l.split('#').next().unwrap().trim())
-        .filter(|l| !l.is_empty())
-        .skip(1);
-    let counts: Vec<usize> = lines
-        .next()
-        .unwrap()
-        .split_whitespace()
-        .map(|w| w.parse().unwrap())
-        .collect();
-    let mut mesh = Mesh::default();
-    for line in lines.by_ref().take(counts[0]) {
-        mesh.positions.push(point(line.split_whitespace()));
-    }
-    for line in lines.take(counts[1]) {
-        let corners: Vec<u32> = line
-            .split_whitespace()
-            .map(|w| w.parse().unwrap())
-            .collect();
-        mesh.polygons.push(&corners[1..=corners[0] as usize]);
-    }
-    mesh
-}
-
-fn point<'a>(words: impl Iterator<Item = &'a str>) -> Point {
-    let c: Vec<f64> = words.take(3).map(|w| w.parse().unwrap()).collect();
-    Point::new(c[0], c[1], c[2])
-}
-
-/// The path of a model under the shared data, if it is there; says so loudly if not.
-pub fn model(name: &str) -> Option<PathBuf> {
-    let root = std::env::var_os("SYMMETRIZER_DATA").map_or_else(
-        || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
-        PathBuf::from,
-    );
-    let path = root.join(name);
+/// The file or folder `relative` of the test data: below `SYMMETRIZER_DATA`, or below `shared/data`
+/// beside the checkout. `None`, with a loud line, where there is none: the data is not in the
+/// repository.
+pub fn data(relative: &str) -> Option<PathBuf> {
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
+    let root = std::env::var_os("SYMMETRIZER_DATA").map_or(beside, PathBuf::from);
+    let path = root.join(relative);
     if path.exists() {
         return Some(path);
     }
-    eprintln!(
-        "SKIPPED: {} is not there; set SYMMETRIZER_DATA",
-        path.display()
-    );
+    skip(&path);
     None
+}
+
+#[allow(clippy::print_stderr)] // A test that does nothing must not look like one that passed.
+fn skip(path: &Path) {
+    eprintln!("SKIPPED: no test data at {}", path.display());
+}
+
+/// The mesh in a file that is known to be readable.
+pub fn load(path: &Path) -> Mesh {
+    io::read(path).expect("a readable file")
+}
+
+/// The path of a model of the test data, if it is there.
+pub fn model(name: &str) -> Option<PathBuf> {
+    data(name)
 }
 
 /// The working surface of a mesh and its bounding-box diagonal in working units.

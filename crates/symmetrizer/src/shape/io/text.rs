@@ -1,0 +1,154 @@
+//! Reading text files: words and numbers with the line they stand on.
+
+use crate::error::{Error, Result};
+
+/// The words of a text, separated by white space; counts lines as it goes.
+pub(super) struct Words<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    line: usize,
+    comment: Option<u8>,
+}
+
+impl<'a> Words<'a> {
+    /// The words of `bytes`, whose first line has the number `line`; where `comment` is given, the
+    /// rest of a line from that byte on is left out.
+    pub fn new(bytes: &'a [u8], line: usize, comment: Option<u8>) -> Self {
+        Self {
+            bytes,
+            at: 0,
+            line,
+            comment,
+        }
+    }
+
+    /// The line of the last word.
+    pub fn line(&self) -> usize {
+        self.line
+    }
+
+    /// The next word.
+    pub fn next_word(&mut self) -> Option<&'a [u8]> {
+        self.skip_blank();
+        let start = self.at;
+        let length = self.bytes[start..]
+            .iter()
+            .position(|&b| b.is_ascii_whitespace() || Some(b) == self.comment)
+            .unwrap_or(self.bytes.len() - start);
+        self.at += length;
+        (length > 0).then(|| &self.bytes[start..self.at])
+    }
+
+    /// Puts back the last `count` bytes of the word just read.
+    pub fn put_back(&mut self, count: usize) {
+        self.at -= count;
+    }
+
+    /// Drops the words left on the line of the last word.
+    pub fn skip_line(&mut self) {
+        self.at += self.bytes[self.at..]
+            .iter()
+            .position(|&b| b == b'\n')
+            .unwrap_or(self.bytes.len() - self.at);
+    }
+
+    /// The next word as a finite number; `part` says what it belongs to.
+    pub fn number(&mut self, part: Part) -> Result<f64> {
+        let word = self.word_of(part)?;
+        number(word, self.line)
+    }
+
+    /// The next word as a count or an index; `part` says what it belongs to.
+    pub fn index(&mut self, part: Part) -> Result<u32> {
+        let word = self.word_of(part)?;
+        let parsed = str_of(word).and_then(|text| text.parse().ok());
+        parsed.ok_or_else(|| {
+            at_line(
+                self.line,
+                format!("{part}: '{}' is not a vertex number", shown(word)),
+                "indices and corner counts are whole numbers from 0",
+            )
+        })
+    }
+
+    /// The next word; an error where the text ends before it.
+    pub fn word_of(&mut self, part: Part) -> Result<&'a [u8]> {
+        self.next_word().ok_or_else(|| {
+            at_line(
+                self.line,
+                format!("the file ends within or before {part}"),
+                "it is cut off, or the counts in its header are wrong",
+            )
+        })
+    }
+
+    fn skip_blank(&mut self) {
+        while let Some(&b) = self.bytes.get(self.at) {
+            if Some(b) == self.comment {
+                self.skip_line();
+            } else if b.is_ascii_whitespace() {
+                self.line += usize::from(b == b'\n');
+                self.at += 1;
+            } else {
+                return;
+            }
+        }
+    }
+}
+
+/// A numbered part of a file, such as `face 12`, counted from 0.
+#[derive(Clone, Copy)]
+pub(super) struct Part<'a>(pub &'a str, pub usize);
+
+impl std::fmt::Display for Part<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} {} (counted from 0)", self.0, self.1)
+    }
+}
+
+/// An input error at a line.
+pub(super) fn at_line(line: usize, what: impl std::fmt::Display, hint: &str) -> Error {
+    Error::input(format!("line {line}: {what}"), hint)
+}
+
+/// A word as a finite number.
+pub(super) fn number(word: &[u8], line: usize) -> Result<f64> {
+    match str_of(word).and_then(|text| text.parse::<f64>().ok()) {
+        Some(value) if value.is_finite() => Ok(value),
+        Some(_) => Err(at_line(
+            line,
+            format!("the coordinate '{}' is not a finite number", shown(word)),
+            "remove or repair that vertex",
+        )),
+        None => Err(at_line(
+            line,
+            format!("'{}' is not a number", shown(word)),
+            "a coordinate such as -0.25 or 1e-3 belongs there",
+        )),
+    }
+}
+
+/// The start of a word for a message; bytes that are not text show as replacement characters.
+pub(super) fn shown(word: &[u8]) -> String {
+    let text = String::from_utf8_lossy(&word[..word.len().min(40)]);
+    text.escape_debug().to_string()
+}
+
+/// The text without a byte-order mark.
+///
+/// # Errors
+/// [`Error::Input`] for UTF-16 or 32, which no mesh format uses.
+pub(super) fn plain(bytes: &[u8]) -> Result<&[u8]> {
+    let wide = bytes.starts_with(&[0xfe, 0xff]) || bytes.starts_with(&[0xff, 0xfe]);
+    if wide || bytes[..bytes.len().min(64)].contains(&0) {
+        return Err(Error::input(
+            "byte 0: the file is not plain text (UTF-16, or binary data)",
+            "save it as ASCII or UTF-8, or give it the extension of its real format",
+        ));
+    }
+    Ok(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes))
+}
+
+pub(super) fn str_of(word: &[u8]) -> Option<&str> {
+    std::str::from_utf8(word).ok()
+}

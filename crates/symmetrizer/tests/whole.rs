@@ -1,0 +1,131 @@
+//! Output files appear whole or not at all, and a bad path is refused before the work.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use symmetrizer::shape::io::Output;
+use symmetrizer::{Error, Result};
+
+fn say(output: &mut Output, text: &str) -> Result<()> {
+    output.write(|w| w.write_all(text.as_bytes()).map_err(|e| Error::io("", e)))
+}
+
+fn names(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).unwrap();
+    entries.map(|e| e.unwrap().file_name().into()).collect()
+}
+
+#[test]
+fn the_target_changes_at_the_commit() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.txt");
+    fs::write(&path, "before").unwrap();
+    let mut output = Output::create(&path).unwrap();
+    say(&mut output, "af").unwrap();
+    say(&mut output, "ter").unwrap();
+    assert_eq!(fs::read_to_string(&path).unwrap(), "before");
+    output.commit().unwrap();
+    assert_eq!(fs::read_to_string(&path).unwrap(), "after");
+    assert_eq!(names(folder.path()), [PathBuf::from("a.txt")]);
+}
+
+#[test]
+fn dropped_output_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.txt");
+    let mut output = Output::create(&path).unwrap();
+    say(&mut output, "half").unwrap();
+    drop(output);
+    assert!(names(folder.path()).is_empty());
+}
+
+#[test]
+fn errors_of_the_content_get_the_path() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.txt");
+    let mut output = Output::create(&path).unwrap();
+    let full = std::io::Error::other("disk full");
+    let error = output.write(|_| Err(Error::io("", full))).unwrap_err();
+    assert!(error.to_string().ends_with("a.txt: disk full"), "{error}");
+}
+
+#[test]
+fn bad_paths_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |path: &Path| Output::create(path).unwrap_err().to_string();
+    assert!(refused(folder.path()).contains("directory"));
+    let missing = refused(&folder.path().join("none/a.obj"));
+    assert!(missing.contains("there is no directory"), "{missing}");
+    fs::write(folder.path().join("file"), "").unwrap();
+    refused(&folder.path().join("file/a.obj"));
+    refused(Path::new(""));
+    refused(Path::new("/"));
+    refused(Path::new(".."));
+}
+
+#[cfg(unix)]
+mod unix {
+    use super::*;
+    use std::os::unix::fs::{PermissionsExt, symlink};
+
+    fn mode(path: &Path) -> u32 {
+        fs::metadata(path).unwrap().permissions().mode() & 0o777
+    }
+
+    fn set_mode(path: &Path, mode: u32) {
+        fs::set_permissions(path, fs::Permissions::from_mode(mode)).unwrap();
+    }
+
+    fn write(path: &Path) {
+        let mut output = Output::create(path).unwrap();
+        say(&mut output, "new").unwrap();
+        output.commit().unwrap();
+    }
+
+    #[test]
+    fn new_files_have_the_usual_mode_and_replaced_ones_keep_theirs() {
+        let folder = tempfile::tempdir().unwrap();
+        let (usual, ours) = (folder.path().join("usual"), folder.path().join("ours"));
+        fs::write(&usual, "").unwrap();
+        write(&ours);
+        assert_eq!(mode(&ours), mode(&usual));
+        set_mode(&ours, 0o640);
+        write(&ours);
+        assert_eq!(mode(&ours), 0o640);
+    }
+
+    #[test]
+    fn a_link_stays_a_link() {
+        let folder = tempfile::tempdir().unwrap();
+        let (file, link) = (folder.path().join("file"), folder.path().join("link"));
+        fs::write(&file, "old").unwrap();
+        symlink(&file, &link).unwrap();
+        write(&link);
+        assert_eq!(fs::read_to_string(&file).unwrap(), "new");
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    }
+
+    #[test]
+    fn devices_are_not_replaced() {
+        let error = Output::create(Path::new("/dev/null")).unwrap_err();
+        assert!(error.to_string().contains("device"), "{error}");
+    }
+
+    #[test]
+    #[allow(clippy::print_stderr)] // A test that does nothing must not look like one that passed.
+    fn protected_places_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("file");
+        fs::write(&file, "old").unwrap();
+        set_mode(&file, 0o444);
+        if fs::OpenOptions::new().append(true).open(&file).is_ok() {
+            eprintln!("SKIPPED: the superuser may write everywhere");
+            return;
+        }
+        assert!(matches!(Output::create(&file), Err(Error::Io { .. })));
+        set_mode(folder.path(), 0o555);
+        let new = Output::create(&folder.path().join("new"));
+        set_mode(folder.path(), 0o755);
+        assert!(matches!(new, Err(Error::Io { .. })));
+    }
+}
