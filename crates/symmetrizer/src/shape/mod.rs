@@ -4,6 +4,7 @@
 pub mod closest;
 pub mod io;
 pub mod mesh;
+pub mod models;
 pub mod surface;
 
 pub use closest::{ClosestPoint, Hit};
