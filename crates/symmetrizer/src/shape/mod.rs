@@ -5,6 +5,7 @@ pub mod closest;
 pub mod curvature;
 pub mod io;
 pub mod mesh;
+pub mod models;
 pub mod surface;
 
 pub use closest::{ClosestPoint, Hit};
