@@ -7,7 +7,9 @@ pub mod io;
 pub mod mesh;
 pub mod models;
 pub mod surface;
+pub mod validate;
 
 pub use closest::{ClosestPoint, Hit};
 pub use mesh::Mesh;
 pub use surface::{Surface, SurfacePoint};
+pub use validate::Validation;
