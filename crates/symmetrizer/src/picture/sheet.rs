@@ -43,8 +43,10 @@ pub struct Sheet<'a> {
     pub triangles: &'a [[u32; 3]],
     /// Colours; clay if absent.
     pub scalar: Option<ScalarField<'a>>,
-    /// Mirror planes with their colours; the first one tells how the shape stands.
+    /// Mirror planes with their colours.
     pub planes: &'a [(Plane, [u8; 3])],
+    /// The plane that tells how the shape stands; the first of `planes` if absent.
+    pub upright: Option<Plane>,
     /// Which views, from left to right.
     pub angles: &'a [Angle],
     /// Width and height of one view, pixels.
@@ -78,7 +80,8 @@ pub fn render_sheet(sheet: &Sheet<'_>) -> Canvas {
 }
 
 fn draw_views(canvas: &mut Canvas, sheet: &Sheet<'_>, angles: &[Angle], size: [u32; 2], y: u32) {
-    let stance = Stance::about(sheet.planes.first().map(|p| &p.0), sheet.positions);
+    let plane = sheet.upright.or(sheet.planes.first().map(|p| p.0));
+    let stance = Stance::about(plane.as_ref(), sheet.positions);
     let views: Vec<View> = angles.iter().map(|&a| stance.view(a)).collect();
     let shown = shown(sheet.positions, sheet.triangles, sheet.planes);
     let cameras = matching_cameras(&views, &shown, size);

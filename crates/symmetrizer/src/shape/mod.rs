@@ -9,7 +9,9 @@ pub mod mesh;
 pub mod models;
 pub mod surface;
 mod triangles_cross;
+pub mod validate;
 
 pub use closest::{ClosestPoint, Hit};
 pub use mesh::Mesh;
 pub use surface::{Surface, SurfacePoint};
+pub use validate::Validation;

@@ -192,6 +192,7 @@ fn sheet_picture(name: &str, model: &Model, plane: Plane, scalar: &[f64]) {
             label: "asymmetry, % of D",
         }),
         planes: &[(plane, categorical(0))],
+        upright: None,
         angles: &Angle::ALL,
         size: [340, 360],
     };

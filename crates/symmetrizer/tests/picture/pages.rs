@@ -249,6 +249,7 @@ fn a_sheet_has_one_picture_for_each_angle() {
                 label: "height",
             }),
             planes: &[],
+            upright: None,
             angles: &Angle::ALL[..count],
             size: [60, 50],
         };

@@ -1,0 +1,63 @@
+//! `symmetrize detect`: the symmetries of a shape, nothing moved.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use symmetrizer::job::pictures;
+use symmetrizer::report::DetectReport;
+use symmetrizer::{Result, detect_in};
+
+use crate::Answer;
+use crate::files::{PictureFile, ReportFile, check_distinct, commit};
+use crate::input::{self, Input};
+use crate::options::{Desk, Tuning};
+use crate::summary;
+
+/// List the symmetries of a shape and of its parts
+#[derive(Args)]
+pub struct DetectArgs {
+    #[arg(help = input::HELP)]
+    input: Input,
+    /// Write the symmetries with their faces and pairs here, as JSON
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+    /// Draw the shape with its planes here (png, svg)
+    #[arg(long, value_name = "FILE")]
+    picture: Option<PathBuf>,
+    #[command(flatten)]
+    tuning: Tuning,
+}
+
+/// The verb.
+pub fn detect(args: &DetectArgs, desk: &Desk) -> Result<Answer> {
+    let params = args.tuning.resolve()?;
+    let (report, picture) = (args.report.as_deref(), args.picture.as_deref());
+    let paths: Vec<_> = report.into_iter().chain(picture).collect();
+    check_distinct(args.input.path(), &[], &paths)?;
+    let report_file = report.map(ReportFile::reserve).transpose()?;
+    let picture_file = picture.map(PictureFile::reserve).transpose()?;
+    let mut ctx = desk.context();
+    let mesh = args.input.read(&mut ctx)?;
+    let found = detect_in(&mesh, &params, &mut ctx)?;
+    let mut complete = Vec::new();
+    if let Some(file) = picture_file {
+        let draw = || file.write(&pictures::views(&found, &args.input.title()));
+        complete.push(ctx.stage("picture", |_| draw())?);
+    }
+    let mut report = DetectReport::new(&mesh, &found, &params, &ctx);
+    report.input.shape.file = Some(args.input.name());
+    if let Some(file) = report_file {
+        report.run = Some(desk.progress.report());
+        complete.push(file.write(&report)?);
+    }
+    ctx.check()?;
+    commit(complete)?;
+    desk.say(&summary::shape(&report.input.shape));
+    desk.say("\n");
+    desk.say(&summary::symmetries(&report.input, true));
+    Ok(if found.symmetries().is_empty() {
+        Answer::No
+    } else {
+        Answer::Yes
+    })
+}

@@ -1,0 +1,51 @@
+//! `symmetrize plot`: the density of votes in transformation space.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use symmetrizer::job::pictures;
+use symmetrizer::{Result, detect_in};
+
+use crate::Answer;
+use crate::files::{PictureFile, check_distinct, commit};
+use crate::input::{self, Input};
+use crate::options::{Desk, Tuning};
+
+/// Plot the votes for symmetries in transformation space
+///
+/// The plot shows the two main axes of transformation space, in which distances are displacements as
+/// fractions of the scale L. Symmetries are marked by their ids, as `detect` lists them; clusters
+/// that are no symmetries in grey.
+#[derive(Args)]
+pub struct PlotArgs {
+    #[arg(help = input::HELP)]
+    input: Input,
+    /// Write the plot here (png, svg)
+    #[arg(long, short, value_name = "FILE")]
+    output: PathBuf,
+    #[command(flatten)]
+    tuning: Tuning,
+}
+
+/// The verb.
+pub fn plot(args: &PlotArgs, desk: &Desk) -> Result<Answer> {
+    let params = args.tuning.resolve()?;
+    check_distinct(args.input.path(), &[], &[&args.output])?;
+    let file = PictureFile::reserve(&args.output)?;
+    let mut ctx = desk.context();
+    let mesh = args.input.read(&mut ctx)?;
+    let found = detect_in(&mesh, &params, &mut ctx)?;
+    let title = format!(
+        "{}: {} votes, {} symmetries",
+        args.input.title(),
+        found.detection.pairs.len(),
+        found.symmetries().len()
+    );
+    let complete = ctx.stage("picture", |_| {
+        file.write(&pictures::density(&found, params.cluster.bandwidth, &title))
+    })?;
+    ctx.check()?;
+    commit([complete])?;
+    desk.say(&format!("{title}\nwrote {}\n", args.output.display()));
+    Ok(Answer::Yes)
+}

@@ -1,0 +1,149 @@
+//! `symmetrize run`: the whole paper.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use symmetrizer::job::pictures;
+use symmetrizer::{Context, Mesh, Outcome, Params, Result, Symmetrized, symmetrize};
+
+use crate::Answer;
+use crate::files::{MeshFile, PictureFile, ReportFile, check_distinct, commit};
+use crate::input::{self, Input};
+use crate::options::{Desk, Tuning};
+use crate::summary;
+
+/// Make a shape symmetric
+///
+/// Finds the mirror symmetries of the whole shape and of its parts, then deforms the shape, as little
+/// as possible, until one mirror holds for all of it. The result has the input's vertices and faces
+/// in the same order.
+#[derive(Args)]
+pub struct RunArgs {
+    #[arg(help = input::HELP)]
+    input: Input,
+    /// Write the symmetric shape here; the extension says how (obj, ply, off, stl)
+    #[arg(long, short, value_name = "FILE")]
+    output: PathBuf,
+    /// Write everything in figures here, as JSON
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+    /// Draw the shape before and after here (png, svg)
+    #[arg(long, value_name = "FILE")]
+    picture: Option<PathBuf>,
+    /// Stop when the deformation energy, about the mean square strain, exceeds this; the shape is
+    /// written as it is then
+    #[arg(long, value_name = "ENERGY")]
+    max_deformation: Option<f64>,
+    /// Where no symmetry is found, write the input unchanged
+    #[arg(long)]
+    write_unchanged: bool,
+    /// Write the input here too, say a generated one
+    #[arg(long, value_name = "FILE")]
+    write_input: Option<PathBuf>,
+    #[command(flatten)]
+    tuning: Tuning,
+}
+
+/// The files of a run.
+struct Files {
+    output: MeshFile,
+    input: Option<MeshFile>,
+    report: Option<ReportFile>,
+    picture: Option<PictureFile>,
+}
+
+/// The verb.
+pub fn run(args: &RunArgs, desk: &Desk) -> Result<Answer> {
+    let params = args.params()?;
+    let files = Files::reserve(args)?;
+    let mut ctx = desk.context();
+    let mesh = args.input.read(&mut ctx)?;
+    let mut job = symmetrize(&mesh, &params, &mut ctx)?;
+    job.report.input.shape.file = Some(args.input.name());
+    let found = job.outcome != Outcome::NoSymmetry;
+    let shape = found || args.write_unchanged;
+    files.write(shape, &mesh, &mut job, args, (&mut ctx, desk))?;
+    desk.say(&summary::run(&job.report));
+    desk.say(&args.written(shape));
+    Ok(if found { Answer::Yes } else { Answer::No })
+}
+
+impl RunArgs {
+    fn params(&self) -> Result<Params> {
+        let mut params = self.tuning.resolve()?;
+        if let Some(energy) = self.max_deformation {
+            params.set("optimize.max_deformation", &energy.to_string())?;
+        }
+        Ok(params)
+    }
+
+    /// The line that says where everything is.
+    fn written(&self, shape: bool) -> String {
+        let mut paths: Vec<&Path> = Vec::new();
+        paths.extend(shape.then_some(self.output.as_path()));
+        paths.extend(self.write_input.as_deref());
+        paths.extend(self.report.as_deref());
+        paths.extend(self.picture.as_deref().filter(|_| shape));
+        let names: Vec<String> = paths.iter().map(|p| p.display().to_string()).collect();
+        if names.is_empty() {
+            return "wrote        nothing\n".into();
+        }
+        format!("wrote        {}\n", names.join(", "))
+    }
+}
+
+impl Files {
+    /// Reserves all files, before any work.
+    fn reserve(args: &RunArgs) -> Result<Self> {
+        let others = [&args.write_input, &args.report, &args.picture];
+        let others: Vec<&Path> = others.into_iter().flatten().map(PathBuf::as_path).collect();
+        check_distinct(args.input.path(), &[&args.output], &others)?;
+        let input = args.write_input.as_deref().map(MeshFile::reserve);
+        Ok(Self {
+            output: MeshFile::reserve(&args.output)?,
+            input: input.transpose()?,
+            report: args
+                .report
+                .as_deref()
+                .map(ReportFile::reserve)
+                .transpose()?,
+            picture: args
+                .picture
+                .as_deref()
+                .map(PictureFile::reserve)
+                .transpose()?,
+        })
+    }
+
+    /// Writes what the job came to; without `shape` no result and no picture.
+    fn write(
+        self,
+        shape: bool,
+        input: &Mesh,
+        job: &mut Symmetrized,
+        args: &RunArgs,
+        (ctx, desk): (&mut Context<'_>, &Desk),
+    ) -> Result<()> {
+        let mut complete = Vec::new();
+        ctx.stage("write", |_| {
+            if shape {
+                complete.push(self.output.write(&job.shape)?);
+            }
+            if let Some(file) = self.input {
+                complete.push(file.write(input)?);
+            }
+            Ok(())
+        })?;
+        if let Some(file) = self.picture.filter(|_| shape) {
+            complete.push(ctx.stage("picture", |_| {
+                file.write(&pictures::before_after(job, &args.input.title()))
+            })?);
+        }
+        if let Some(file) = self.report {
+            job.report.run = Some(desk.progress.report());
+            complete.push(file.write(&job.report)?);
+        }
+        ctx.check()?;
+        commit(complete)
+    }
+}

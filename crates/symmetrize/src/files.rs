@@ -1,0 +1,115 @@
+//! Output files: reserved before the slow work, written after it, all of them or none.
+
+use std::path::{Path, PathBuf};
+
+use symmetrizer::picture::Canvas;
+use symmetrizer::report::to_json;
+use symmetrizer::shape::io::{Format, Output, encode};
+use symmetrizer::{Error, Mesh, Result};
+
+/// How a picture is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum PictureFormat {
+    Png,
+    Svg,
+}
+
+/// A reserved mesh file.
+pub struct MeshFile(Output, Format);
+
+/// A reserved picture file.
+pub struct PictureFile(Output, PictureFormat);
+
+/// A reserved report file.
+pub struct ReportFile(Output);
+
+impl MeshFile {
+    /// Reserves `path`; its extension is the format.
+    pub fn reserve(path: &Path) -> Result<Self> {
+        let format = Format::of_path(path)?;
+        Ok(Self(Output::create(path)?, format))
+    }
+
+    /// Writes the mesh; the file appears with [`commit`].
+    pub fn write(mut self, mesh: &Mesh) -> Result<Output> {
+        self.0.write(|w| encode(mesh, self.1, w))?;
+        Ok(self.0)
+    }
+}
+
+impl PictureFile {
+    /// Reserves `path`, which ends in .png or .svg.
+    pub fn reserve(path: &Path) -> Result<Self> {
+        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("");
+        let format = match extension.to_ascii_lowercase().as_str() {
+            "png" => PictureFormat::Png,
+            "svg" => PictureFormat::Svg,
+            _ => return Err(unknown_picture(path)),
+        };
+        Ok(Self(Output::create(path)?, format))
+    }
+
+    /// Writes the picture; the file appears with [`commit`].
+    pub fn write(mut self, canvas: &Canvas) -> Result<Output> {
+        let bytes = match self.1 {
+            PictureFormat::Png => canvas.to_png()?,
+            PictureFormat::Svg => canvas.to_svg()?.into_bytes(),
+        };
+        write_bytes(&mut self.0, &bytes)?;
+        Ok(self.0)
+    }
+}
+
+impl ReportFile {
+    /// Reserves `path`.
+    pub fn reserve(path: &Path) -> Result<Self> {
+        Ok(Self(Output::create(path)?))
+    }
+
+    /// Writes the report; the file appears with [`commit`].
+    pub fn write(mut self, report: &impl serde::Serialize) -> Result<Output> {
+        write_bytes(&mut self.0, to_json(report)?.as_bytes())?;
+        Ok(self.0)
+    }
+}
+
+/// Lets complete files appear.
+pub fn commit(files: impl IntoIterator<Item = Output>) -> Result<()> {
+    files.into_iter().try_for_each(Output::commit)
+}
+
+/// Fails where two outputs are one file, or where one that is no mesh would replace the input.
+pub fn check_distinct(input: Option<&Path>, meshes: &[&Path], others: &[&Path]) -> Result<()> {
+    let real = |p: &Path| -> PathBuf {
+        let folder = p.parent().filter(|f| !f.as_os_str().is_empty());
+        let folder = folder.unwrap_or(Path::new(".")).canonicalize();
+        let joined = folder.ok().zip(p.file_name()).map(|(f, n)| f.join(n));
+        let whole = p.canonicalize().ok();
+        whole.or(joined).unwrap_or_else(|| p.to_owned())
+    };
+    let mut seen: Vec<PathBuf> = Vec::new();
+    for path in meshes.iter().chain(others) {
+        if seen.contains(&real(path)) {
+            let what = "two outputs cannot be the same file";
+            return Err(Error::input(what, "name another file").in_file(*path));
+        }
+        seen.push(real(path));
+    }
+    let input = input.map(real);
+    for path in others {
+        if Some(real(path)) == input {
+            let what = "this would replace the input";
+            return Err(Error::input(what, "name another file").in_file(*path));
+        }
+    }
+    Ok(())
+}
+
+fn write_bytes(output: &mut Output, bytes: &[u8]) -> Result<()> {
+    output.write(|w| w.write_all(bytes).map_err(|e| Error::io("", e)))
+}
+
+fn unknown_picture(path: &Path) -> Error {
+    let path = path.display();
+    Error::Unsupported(format!("{path}: pictures are written as .png or .svg"))
+}

@@ -1,0 +1,215 @@
+//! Results in words and tables for people.
+
+use std::fmt::Write;
+
+use symmetrizer::Outcome;
+use symmetrizer::apply::measure::{AsymmetryReport, Distortion, PlaneReport};
+use symmetrizer::optimize::Step;
+use symmetrizer::report::{InputReport, RefusalReport, Report, ShapeReport, SymmetryReport};
+
+/// Refused modes listed at the most; the report has them all.
+const REFUSED: usize = 8;
+
+/// A line about a shape.
+pub fn shape(shape: &ShapeReport) -> String {
+    let name = shape.file.as_deref().unwrap_or("the shape");
+    format!(
+        "{name}: {} vertices, {} triangles, bounding-box diagonal D = {}, scale L = {}\n",
+        grouped(shape.vertices),
+        grouped(shape.faces),
+        short(shape.diagonal),
+        short(shape.scale)
+    )
+}
+
+/// The symmetries found, and with `refused` also what was not accepted.
+pub fn symmetries(input: &InputReport, refused: bool) -> String {
+    let mut text = table(&input.symmetries);
+    if refused && !input.refused.is_empty() {
+        text += &refusals(&input.refused);
+    }
+    text
+}
+
+/// Everything about a run but its files.
+pub fn run(report: &Report) -> String {
+    let mut text = shape(&report.input.shape);
+    text += "\n";
+    let Some(result) = &report.result else {
+        return text + &symmetries(&report.input, true);
+    };
+    text += &symmetries(&report.input, false);
+    text += "\n";
+    for step in &report.steps {
+        let _ = writeln!(text, "  {}", done(step));
+    }
+    text += "\n";
+    let states = [
+        ("before", report.input.shape.asymmetry.as_ref()),
+        ("after", Some(&result.asymmetry)),
+    ];
+    text += &asymmetry(&states);
+    text += &distortion(&result.distortion);
+    let _ = writeln!(text, "energy       {:.2e}", result.energy);
+    let _ = writeln!(text, "outcome      {}", outcome(report.outcome));
+    text
+}
+
+/// Asymmetry of one or more states, a row for each.
+pub fn asymmetry(states: &[(&str, Option<&AsymmetryReport>)]) -> String {
+    let mut text = String::from("asymmetry, % of D    mean     rms     p95     p99     max\n");
+    for (name, state) in states {
+        if let Some(a) = state {
+            let _ = writeln!(
+                text,
+                "  {name:<14} {:8.3}{:8.3}{:8.2}{:8.2}{:8.2}",
+                a.mean, a.rms, a.p95, a.p99, a.max
+            );
+        }
+    }
+    text
+}
+
+/// What became of a shape.
+pub fn distortion(d: &Distortion) -> String {
+    let correlation = d
+        .curvature_correlation
+        .map_or("undefined".into(), |c| format!("{c:.3}"));
+    format!(
+        "distortion   vertices moved {:.2} % of D (rms; at most {:.1}), edges stretched {:.1} % (p99)\n\
+         \x20            curvature correlation {correlation}, {} new crossings, {} inverted faces\n",
+        d.rms,
+        d.max,
+        100.0 * d.edge_stretch_p99.exp_m1(),
+        d.new_crossings,
+        d.inverted_faces
+    )
+}
+
+/// A plane n.x = offset.
+pub fn plane(plane: &PlaneReport) -> String {
+    let [x, y, z] = plane.normal;
+    format!(
+        "({x:6.3}, {y:6.3}, {z:6.3}) . x = {:>9}",
+        short(plane.offset)
+    )
+}
+
+fn table(symmetries: &[SymmetryReport]) -> String {
+    if symmetries.is_empty() {
+        return String::from("no symmetry found\n");
+    }
+    let mut text = String::from(
+        " id  kind    plane                                   height  area %  rms % of L\n",
+    );
+    for s in symmetries {
+        let _ = writeln!(
+            text,
+            "{:3}  {:<6}  {}  {:6.2}  {:6.1}  {:10.3}",
+            s.id,
+            s.kind,
+            plane(&s.plane),
+            s.height,
+            100.0 * s.area_fraction,
+            100.0 * s.rms
+        );
+    }
+    text
+}
+
+fn refusals(refused: &[RefusalReport]) -> String {
+    let mut text = String::from("refused\n");
+    for r in refused.iter().take(REFUSED) {
+        let _ = writeln!(
+            text,
+            "             {}  {:6.2}  {}",
+            plane(&r.plane),
+            r.height,
+            r.reason
+        );
+    }
+    if refused.len() > REFUSED {
+        let _ = writeln!(text, "             and {} more", refused.len() - REFUSED);
+    }
+    text
+}
+
+fn done(step: &Step) -> String {
+    match step {
+        Step::Contract {
+            symmetry, steps, ..
+        } => format!("contracted {symmetry} in {steps} steps"),
+        Step::Merge {
+            symmetries: [a, b],
+            steps,
+            distance,
+            coverage,
+            kept,
+            ..
+        } => format!(
+            "merged {a} and {b} in {steps} steps: mirrors {:.2} -> {:.2} % of L apart, \
+             best mirror holds for {:.0} -> {:.0} % of the surface{}",
+            100.0 * distance[0],
+            100.0 * distance[1],
+            100.0 * coverage[0],
+            100.0 * coverage[1],
+            if *kept { "" } else { "; undone" }
+        ),
+        Step::ContractWhole { steps, .. } => format!("contracted the whole in {steps} steps"),
+        Step::Finish { rounds, rms } => format!(
+            "finished at full resolution in {rounds} rounds, moving vertices {:.2} % of L",
+            100.0 * rms
+        ),
+    }
+}
+
+fn outcome(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Converged => "converged",
+        Outcome::EnergyLimit => "energy limit reached: stopped there, as --max-deformation asks",
+        Outcome::StepLimit => "step limit reached: a merge did not close (optimize.merge_steps)",
+        Outcome::NoSymmetry => "no symmetry found",
+    }
+}
+
+/// 12345 as 12,345.
+fn grouped(n: usize) -> String {
+    let digits = n.to_string();
+    let mut text = String::new();
+    for (i, c) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(c);
+    }
+    text
+}
+
+/// Four significant digits, plain where that is short.
+fn short(x: f64) -> String {
+    let size = x.abs();
+    if size == 0.0 {
+        "0".into()
+    } else if (1e-3..1e6).contains(&size) {
+        let decimals = (3.0 - size.log10().floor()).clamp(0.0, 6.0) as usize;
+        format!("{x:.decimals$}")
+    } else {
+        format!("{x:.3e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_readable() {
+        assert_eq!(grouped(7), "7");
+        assert_eq!(grouped(123), "123");
+        assert_eq!(grouped(1_234_567), "1,234,567");
+        assert_eq!(short(0.25), "0.2500");
+        assert_eq!(short(-1234.5), "-1234");
+        assert_eq!(short(1e-9), "1.000e-9");
+        assert_eq!(short(0.0), "0");
+    }
+}

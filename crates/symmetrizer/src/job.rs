@@ -1,0 +1,176 @@
+//! The whole paper: detection, contraction, merging and the figures before and after, in a row.
+
+mod ids;
+mod measured;
+pub mod pictures;
+
+use crate::apply::measure::{Asymmetry, AsymmetryReport, asymmetry, distortion};
+use crate::context::Context;
+use crate::detect::{Detection, detect};
+use crate::error::Result;
+use crate::optimize::schedule::Settings;
+use crate::optimize::{Optimized, Outcome, optimize};
+use crate::params::Params;
+use crate::patch::Symmetry;
+use crate::report::faces::FaceSamples;
+use crate::report::{Head, InputReport, Report, ResultReport, symmetry};
+use crate::shape::Mesh;
+use crate::shape::surface::Working;
+use crate::transform::Plane;
+
+pub use measured::{Measured, measure_in};
+
+/// A state of a shape and the symmetries found in it.
+pub struct Detected {
+    /// The shape to work on.
+    pub working: Working,
+    /// The bounding-box diagonal D, fraction of L.
+    pub diagonal: f64,
+    /// What was found.
+    pub detection: Detection,
+}
+
+/// A shape made symmetric, and how.
+pub struct Symmetrized {
+    /// The result: the input's vertices, moved, with its order and faces. Where no symmetry was
+    /// found, the input itself.
+    pub shape: Mesh,
+    /// How the run ended.
+    pub outcome: Outcome,
+    /// The input and its symmetries.
+    pub before: Detected,
+    /// The result and its symmetries, in the working coordinates of the input; none where no
+    /// symmetry was found.
+    pub after: Option<Detected>,
+    /// The planes by which `report` measures asymmetry before and after, working coordinates.
+    pub planes: [Plane; 2],
+    /// Everything in figures.
+    pub report: Report,
+}
+
+/// Finds the symmetries of `mesh`.
+///
+/// # Errors
+/// [`crate::Error::Input`] for a mesh that cannot be worked on, [`crate::Error::Params`],
+/// [`crate::Error::Cancelled`].
+pub fn detect_in(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result<Detected> {
+    params.check()?;
+    let working = Working::new(mesh)?;
+    ctx.stage("detect", |ctx| {
+        Detected::find(working, mesh.diagonal(), params, ctx)
+    })
+}
+
+/// Makes `mesh` symmetric (section 4.2): finds its symmetries, contracts and merges their clusters,
+/// and measures both states.
+///
+/// The same mesh, parameters and seed give the same result to the last bit, with any number of
+/// threads. That no symmetry was found or the energy limit was reached is an [`Outcome`].
+///
+/// # Errors
+/// Those of [`detect_in`]; [`crate::Error::Numerical`].
+pub fn symmetrize(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result<Symmetrized> {
+    let before = detect_in(mesh, params, ctx)?;
+    let measured = ctx.stage("measure", |ctx| before.asymmetry(&[], ctx))?;
+    let settings = Settings {
+        detect: &params.detect(),
+        deform: &params.deform,
+        optimize: &params.optimize,
+    };
+    let done = optimize(&before.working.surface, &before.detection, settings, ctx)?;
+    let faces = FaceSamples::of(&before);
+    let asymmetry = AsymmetryReport::new(&measured, &before.working.normalization);
+    let report = Report {
+        head: Head::new(params, ctx),
+        outcome: done.outcome,
+        warnings: Vec::new(),
+        input: InputReport::new(mesh, &before, &faces, Some(asymmetry)),
+        result: None,
+        steps: done.steps.clone(),
+        run: None,
+    };
+    let mut job = Symmetrized {
+        shape: mesh.clone(),
+        outcome: done.outcome,
+        before,
+        after: None,
+        planes: [measured.plane; 2],
+        report,
+    };
+    if done.outcome != Outcome::NoSymmetry {
+        job.conclude(done, &faces, params, ctx)?;
+    }
+    job.report.warnings = ctx.warnings().to_vec();
+    Ok(job)
+}
+
+impl Detected {
+    fn find(
+        working: Working,
+        diagonal: f64,
+        params: &Params,
+        ctx: &mut Context<'_>,
+    ) -> Result<Self> {
+        Ok(Self {
+            diagonal: diagonal / working.normalization.scale,
+            detection: detect(&working.surface, &params.detect(), ctx)?,
+            working,
+        })
+    }
+
+    /// The symmetries, the highest first.
+    pub fn symmetries(&self) -> &[Symmetry] {
+        &self.detection.symmetries
+    }
+
+    /// How far this state is from symmetric; its symmetries' planes and `known` ones are tried
+    /// besides those that the measure looks for itself.
+    ///
+    /// # Errors
+    /// As [`asymmetry`].
+    pub fn asymmetry(&self, known: &[Plane], ctx: &Context<'_>) -> Result<Asymmetry> {
+        let mut planes = known.to_vec();
+        planes.extend(self.symmetries().iter().map(|s| s.plane));
+        asymmetry(&self.working.surface, self.diagonal, &planes, ctx)
+    }
+}
+
+impl Symmetrized {
+    /// Takes over what was `done`: the moved shape, its symmetries and figures.
+    fn conclude(
+        &mut self,
+        done: Optimized,
+        faces_before: &FaceSamples,
+        params: &Params,
+        ctx: &mut Context<'_>,
+    ) -> Result<()> {
+        let before = &self.before;
+        self.shape = before.working.moved_document(&self.shape, &done.positions);
+        let working = Working {
+            surface: before.working.surface.with_positions(done.positions),
+            ..before.working.clone()
+        };
+        let diagonal = self.shape.diagonal();
+        let mut after = ctx.stage("detect again", |ctx| {
+            Detected::find(working, diagonal, params, ctx)
+        })?;
+        let faces = FaceSamples::of(&after);
+        ids::carry((before, faces_before), (&mut after, &faces));
+        let result = ctx.stage("measure again", |ctx| {
+            let known: Vec<Plane> = done.plane.into_iter().collect();
+            let measured = after.asymmetry(&known, ctx)?;
+            ctx.progress(0.5)?;
+            self.planes[1] = measured.plane;
+            let surfaces = [before, &after].map(|d| &d.working.surface);
+            Ok(ResultReport {
+                asymmetry: AsymmetryReport::new(&measured, &after.working.normalization),
+                distortion: distortion(surfaces[0], surfaces[1], before.diagonal),
+                energy: done.energy,
+                symmetries: symmetry::all(&after, &faces),
+            })
+        })?;
+        self.report.result = Some(result);
+        self.after = Some(after);
+        Ok(())
+    }
+}

@@ -1,0 +1,68 @@
+//! From samples to faces: which part of the triangles each sample speaks for.
+
+use rayon::prelude::*;
+
+use crate::geom::{Point, PointIndex};
+use crate::job::Detected;
+use crate::patch::Symmetry;
+use crate::sample::Samples;
+use crate::shape::Surface;
+
+/// How far the sample of a face is looked for, in units of the samples' spacing: they leave no gap
+/// wider than this.
+const REACH: f64 = 2.5;
+
+/// For each triangle of a surface the sample that speaks for it.
+pub struct FaceSamples {
+    nearest: Vec<Option<u32>>,
+    centroids: Vec<Point>,
+}
+
+impl FaceSamples {
+    /// The samples nearest to the triangles of what was detected.
+    pub fn of(found: &Detected) -> Self {
+        Self::new(&found.working.surface, &found.detection.samples)
+    }
+
+    /// For each triangle of `surface` the sample nearest to its centroid whose normal faces the
+    /// triangle's way; none for a triangle without area.
+    pub fn new(surface: &Surface, samples: &Samples) -> Self {
+        let list = &samples.list;
+        let places: Vec<[f64; 3]> = list.iter().map(|s| s.position.coords.into()).collect();
+        let index = PointIndex::new(&places);
+        let count = surface.triangles.len() as u32;
+        let centroids: Vec<Point> = (0..count).map(|f| centroid(surface, f)).collect();
+        let nearest = centroids
+            .par_iter()
+            .zip(&surface.face_normals)
+            .map(|(c, normal)| {
+                let gap = |i: &u32| (list[*i as usize].position - c).norm_squared();
+                index
+                    .within(&c.coords.into(), REACH * samples.spacing)
+                    .into_iter()
+                    .filter(|&i| list[i as usize].normal.dot(normal) > 0.0)
+                    .min_by(|a, b| gap(a).total_cmp(&gap(b)))
+            })
+            .collect();
+        Self { nearest, centroids }
+    }
+
+    /// The working triangles that `symmetry` holds for: the patch, on the side n.x < offset, and its
+    /// image, on the other; each increasing.
+    pub fn patch(&self, symmetry: &Symmetry, samples: usize) -> [Vec<u32>; 2] {
+        let member = symmetry.membership(samples);
+        let mut sides = [Vec::new(), Vec::new()];
+        for (f, nearest) in self.nearest.iter().enumerate() {
+            if nearest.is_some_and(|s| member[s as usize]) {
+                let side = symmetry.plane.signed_distance(&self.centroids[f]) >= 0.0;
+                sides[usize::from(side)].push(f as u32);
+            }
+        }
+        sides
+    }
+}
+
+fn centroid(surface: &Surface, face: u32) -> Point {
+    let [a, b, c] = surface.corners(face);
+    Point::from((a.coords + b.coords + c.coords) / 3.0)
+}

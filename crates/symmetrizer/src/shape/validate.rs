@@ -1,0 +1,131 @@
+//! Counts of what is unusual in a mesh; none of it stops the work.
+
+use serde::Serialize;
+
+use crate::shape::mesh::Mesh;
+use crate::shape::surface::{Surface, Working};
+
+/// What the working surface had to leave out, and how it hangs together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Validation {
+    /// Document vertices that no face uses.
+    pub unused_vertices: usize,
+    /// Document vertices in the same place as an earlier one, for which they count.
+    pub welded_vertices: usize,
+    /// Triangles of the document with two corners in one place, or without area.
+    pub degenerate_faces: usize,
+    /// Parts of the surface that share no vertex.
+    pub components: usize,
+    /// Edges with one triangle.
+    pub boundary_edges: usize,
+    /// Edges with more than two triangles.
+    pub non_manifold_edges: usize,
+}
+
+impl Validation {
+    /// The counts of `mesh`, of which `working` is the working surface.
+    pub fn of(mesh: &Mesh, working: &Working) -> Self {
+        let surface = &working.surface;
+        let used = working.vertex_of_document.iter().flatten().count();
+        let flat = surface.face_areas.iter().filter(|a| **a <= 0.0).count();
+        let (boundary_edges, non_manifold_edges) = odd_edges(surface);
+        Self {
+            unused_vertices: mesh.positions.len() - used,
+            welded_vertices: used - surface.positions.len(),
+            degenerate_faces: mesh.triangles().count() - surface.triangles.len() + flat,
+            components: components(surface),
+            boundary_edges,
+            non_manifold_edges,
+        }
+    }
+}
+
+/// Edges with one triangle, and with more than two.
+fn odd_edges(surface: &Surface) -> (usize, usize) {
+    let mut edges: Vec<[u32; 2]> = surface
+        .triangles
+        .iter()
+        .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
+        .map(|[u, v]| [u.min(v), u.max(v)])
+        .collect();
+    edges.sort_unstable();
+    let mut counts = (0, 0);
+    for group in edges.chunk_by(|a, b| a == b) {
+        match group.len() {
+            1 => counts.0 += 1,
+            2 => {}
+            _ => counts.1 += 1,
+        }
+    }
+    counts
+}
+
+fn components(surface: &Surface) -> usize {
+    let mut parent: Vec<u32> = (0..surface.positions.len() as u32).collect();
+    let mut count = parent.len();
+    for &[a, b, c] in surface.triangles.iter() {
+        for (u, v) in [(a, b), (b, c)] {
+            let (u, v) = (root(&mut parent, u), root(&mut parent, v));
+            if u != v {
+                parent[u.max(v) as usize] = u.min(v);
+                count -= 1;
+            }
+        }
+    }
+    count - lonely(surface)
+}
+
+/// The representative of `v`, paths halved on the way.
+fn root(parent: &mut [u32], mut v: u32) -> u32 {
+    while parent[v as usize] != v {
+        parent[v as usize] = parent[parent[v as usize] as usize];
+        v = parent[v as usize];
+    }
+    v
+}
+
+/// Vertices all of whose triangles were degenerate.
+fn lonely(surface: &Surface) -> usize {
+    let mut alone = vec![true; surface.positions.len()];
+    for &v in surface.triangles.iter().flatten() {
+        alone[v as usize] = false;
+    }
+    alone.into_iter().filter(|a| *a).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Point;
+
+    #[test]
+    fn counts_of_a_small_mess() {
+        let at = |x: f64, y: f64| Point::new(x, y, 0.0);
+        // Two triangles on edge 0-1, a third on it from above, one apart with a welded corner,
+        // one with twice the same corner, one loose vertex.
+        let mut positions = vec![at(0.0, 0.0), at(1.0, 0.0), at(0.5, 1.0), at(0.5, -1.0)];
+        positions.push(Point::new(0.5, 0.0, 1.0));
+        positions.extend([at(5.0, 0.0), at(6.0, 0.0), at(5.0, 1.0), at(5.0, 0.0)]);
+        positions.push(at(9.0, 9.0));
+        let triangles = vec![
+            [0, 1, 2],
+            [1, 0, 3],
+            [0, 1, 4],
+            [5, 6, 7],
+            [8, 6, 7],
+            [5, 8, 6],
+        ];
+        let mesh = Mesh::from_triangles(positions, triangles);
+        let working = Working::new(&mesh).unwrap();
+        let found = Validation::of(&mesh, &working);
+        let expected = Validation {
+            unused_vertices: 1,
+            welded_vertices: 1,
+            degenerate_faces: 1,
+            components: 2,
+            boundary_edges: 6,
+            non_manifold_edges: 1,
+        };
+        assert_eq!(found, expected);
+    }
+}
