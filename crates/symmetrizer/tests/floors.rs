@@ -85,7 +85,7 @@ fn objection(from: &str, path: &[String]) -> Option<String> {
     let allowed = here.only?;
     let full = path.join("::") + "::";
     let fits = |a: &&str| full.starts_with(&format!("{a}::"));
-    (!allowed.iter().any(|a| fits(&a)))
+    (!allowed.iter().any(fits))
         .then(|| format!("{from} may use {} only", allowed.join(", ")))
 }
 
