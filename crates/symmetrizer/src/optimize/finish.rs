@@ -64,16 +64,23 @@ pub fn finish(
     let before = aim.asymmetry;
     let mut rounds = 0;
     let [mut lambda, shortest] = params.finish_lengths;
-    while rounds < params.finish_rounds && aim.asymmetry > goal {
+    let mut reached = aim.asymmetry <= goal;
+    while !reached && rounds < params.finish_rounds {
         ctx.progress(rounds as f64 / params.finish_rounds as f64)?;
         let moves = field
             .solve(&aim.targets, &aim.confidence, lambda)
             .map_err(fail)?;
-        let moved = now.positions.iter().zip(&moves).map(|(x, u)| x + u);
-        let next = now.with_positions(moved.collect());
-        let next_aim = Aim::at(&next, aim.plane);
+        let mut next = displaced(&now, &moves, 1.0);
+        let mut next_aim = Aim::at(&next, aim.plane);
         if lambda <= shortest && next_aim.asymmetry > STALLED * aim.asymmetry {
             break;
+        }
+        reached = next_aim.asymmetry <= goal;
+        if reached {
+            // No further than the goal: the part of the last round that takes it there.
+            let fraction = (aim.asymmetry - goal) / (aim.asymmetry - next_aim.asymmetry);
+            next = displaced(&now, &moves, fraction);
+            next_aim = Aim::at(&next, aim.plane);
         }
         (now, aim) = (next, next_aim);
         rounds += 1;
@@ -87,6 +94,12 @@ pub fn finish(
         rounds,
         asymmetry: [before, aim.asymmetry],
     })
+}
+
+/// The surface with `fraction` of the displacements `moves`.
+fn displaced(surface: &Surface, moves: &[Vector], fraction: f64) -> Surface {
+    let moved = surface.positions.iter().zip(moves);
+    surface.with_positions(moved.map(|(x, u)| x + u * fraction).collect())
 }
 
 /// Where every vertex should go, and how asymmetric the surface is.

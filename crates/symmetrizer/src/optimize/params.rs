@@ -32,7 +32,7 @@ pub struct OptimizeParams {
     /// below them keeps its own form. 0.04 and 0.008, ours.
     pub finish_lengths: [f64; 2],
     /// The finish stops at this mean asymmetry, fraction of L, if it is also a tenth of the input's;
-    /// going on would rub out detail. 0.0009, ours.
+    /// going on would rub out detail. 0.00085, ours.
     pub finish_asymmetry: f64,
     /// Stop when the deformation energy (about the mean square strain) exceeds this; none by
     /// default.
@@ -52,7 +52,7 @@ impl Default for OptimizeParams {
             final_steps: 25,
             finish_rounds: 16,
             finish_lengths: [0.04, 0.008],
-            finish_asymmetry: 0.0009,
+            finish_asymmetry: 0.00085,
             max_deformation: None,
         }
     }
