@@ -136,6 +136,11 @@ impl Detected {
 }
 
 impl Symmetrized {
+    /// The symmetries of the result, the highest first.
+    pub fn symmetries(&self) -> &[Symmetry] {
+        self.after.as_ref().map_or(&[], Detected::symmetries)
+    }
+
     /// Takes over what was `done`: the moved shape, its symmetries and figures.
     fn conclude(
         &mut self,
