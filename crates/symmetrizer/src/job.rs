@@ -127,7 +127,7 @@ impl Detected {
     /// besides those that the measure looks for itself.
     ///
     /// # Errors
-    /// As [`asymmetry`].
+    /// As [`asymmetry()`].
     pub fn asymmetry(&self, known: &[Plane], ctx: &Context<'_>) -> Result<Asymmetry> {
         let mut planes = known.to_vec();
         planes.extend(self.symmetries().iter().map(|s| s.plane));
