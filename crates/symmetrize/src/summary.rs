@@ -156,9 +156,23 @@ fn done(step: &Step) -> String {
             if *kept { "" } else { "; undone" }
         ),
         Step::ContractWhole { steps, .. } => format!("contracted the whole in {steps} steps"),
-        Step::Finish { rounds, rms } => format!(
-            "finished at full resolution in {rounds} rounds, moving vertices {:.2} % of L",
-            100.0 * rms
+        Step::Finish {
+            rounds,
+            asymmetry,
+            undone,
+        } => format!(
+            "finished at full resolution in {rounds} rounds: mirrored vertices {:.3} -> {:.3} % of L \
+             from the surface{}",
+            100.0 * asymmetry[0],
+            100.0 * asymmetry[1],
+            if *undone > 0.0 {
+                format!(
+                    "; undone on {:.1} % of the area, where the surface would have crossed itself",
+                    100.0 * undone
+                )
+            } else {
+                String::new()
+            }
         ),
     }
 }

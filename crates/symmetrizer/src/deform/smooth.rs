@@ -9,7 +9,7 @@ use crate::deform::solver::{Cholesky, SolveError};
 use crate::geom::Vector;
 use crate::shape::Surface;
 
-/// The system of one surface; only the confidences c_v change between solves.
+/// The system of one surface; only lambda and the confidences c_v change between solves.
 pub struct SmoothField {
     cholesky: Cholesky,
     /// The Laplacian's values with a zero screening term.
@@ -24,17 +24,17 @@ pub struct SmoothField {
 const FLOOR: f64 = 1e-6;
 
 impl SmoothField {
-    /// The field over `surface` with smoothing length `lambda` (fraction of L).
+    /// The system of `surface`.
     ///
     /// # Errors
     /// [`SolveError::Setup`].
-    pub fn new(surface: &Surface, lambda: f64) -> Result<Self, SolveError> {
+    pub fn new(surface: &Surface) -> Result<Self, SolveError> {
         let n = surface.positions.len();
         let weights = cotangents(surface);
         let mut columns: Vec<Vec<(usize, f64)>> = vec![Vec::new(); n];
         let mut sums = vec![0.0; n];
         for (&(u, v), &cot) in &weights {
-            let k = lambda * lambda * cot.clamp(COTANGENT_RANGE.0, COTANGENT_RANGE.1);
+            let k = cot.clamp(COTANGENT_RANGE.0, COTANGENT_RANGE.1);
             columns[u as usize].push((v as usize, -k));
             sums[u as usize] += k;
             sums[v as usize] += k;
@@ -59,8 +59,8 @@ impl SmoothField {
         })
     }
 
-    /// The smooth field nearest to the targets: `confidence` c_v of each target t_v in 0..=1, 0 for
-    /// none.
+    /// The field of smoothing length `lambda` (fraction of L) nearest to the targets: `confidence` c_v
+    /// of each target t_v in 0..=1, 0 for none.
     ///
     /// # Errors
     /// [`SolveError`].
@@ -68,9 +68,10 @@ impl SmoothField {
         &mut self,
         targets: &[Vector],
         confidence: &[f64],
+        lambda: f64,
     ) -> Result<Vec<Vector>, SolveError> {
         let n = self.areas.len();
-        let mut values = self.laplacian.clone();
+        let mut values: Vec<f64> = self.laplacian.iter().map(|k| lambda * lambda * k).collect();
         let mut x = vec![0.0; 3 * n];
         let floor = FLOOR * self.areas.iter().sum::<f64>() / n as f64;
         for v in 0..n {

@@ -28,7 +28,7 @@ impl<const K: usize> PointIndex<K> {
             .unsorted()
             .execute()
             .iter()
-            .map(|hit| hit.item as u32)
+            .map(|hit| hit.item)
             .collect();
         found.sort_unstable();
         found
@@ -42,6 +42,6 @@ impl<const K: usize> PointIndex<K> {
             .query(x)
             .nearest_one::<SquaredEuclidean<f64>>()
             .execute();
-        Some((hit.item as u32, hit.distance))
+        Some((hit.item, hit.distance))
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! Each vertex is drawn half of the way, along its normal, to its mirrored closest point; the field of
 //! these displacements is smoothed by a screened Laplacian, so that the surface moves as cloth and
-//! not as dust, and keeps the detail that is finer than the smoothing length.
+//! not as dust. The smoothing length falls from round to round and the rounds end as soon as the
+//! shape is symmetric enough: detail is rubbed out no further than that takes.
 
 use rayon::prelude::*;
 
@@ -11,6 +12,7 @@ use crate::deform::smooth::SmoothField;
 use crate::error::{Error, Result};
 use crate::geom::{Point, Vector};
 use crate::optimize::params::OptimizeParams;
+use crate::optimize::untangle::untangle;
 use crate::shape::{ClosestPoint, Hit, Surface};
 use crate::transform::{Ambient, Correspondence, Isometry, Plane, displacements, optimal_mirror};
 
@@ -23,114 +25,190 @@ pub struct Finished {
     pub plane: Plane,
     /// Rounds run.
     pub rounds: usize,
-    /// rms displacement of the vertices by the finish, fraction of L.
-    pub rms: f64,
+    /// Mean distance of mirrored vertices from the surface before and after, area-weighted, fraction
+    /// of L.
+    pub asymmetry: [f64; 2],
+    /// Share of the area where it was undone because the surface would have crossed itself.
+    pub undone: f64,
 }
 
-/// Closest points are looked for this far, fraction of L.
+/// Closest points that draw a vertex lie within this distance, fraction of L.
 const REACH: f64 = 0.05;
 
-/// Runs the rounds of the finish on `surface` under the mirror `plane`.
+/// Factor of the smoothing length from round to round.
+const REFINE: f64 = 0.8;
+
+/// A round that leaves more than this share of the asymmetry gains nothing that is worth its change.
+const STALLED: f64 = 0.98;
+
+/// Runs the rounds of the finish on `surface` under the mirror `plane` until the mean asymmetry is
+/// `goal` (fraction of L) or falls no further.
 ///
 /// # Errors
 /// [`Error::Numerical`], [`Error::Cancelled`].
 pub fn finish(
     surface: Surface,
     plane: Plane,
+    goal: f64,
     params: &OptimizeParams,
     ctx: &mut Context<'_>,
 ) -> Result<Finished> {
-    let start = surface.positions.clone();
-    let mut done = Finished {
-        positions: Vec::new(),
-        plane,
-        rounds: 0,
-        rms: 0.0,
-    };
     let fail = |_| Error::Numerical {
         stage: "finish",
         step: 0,
         what: "the smoothing system could not be solved".into(),
     };
-    let mut field = SmoothField::new(&surface, params.finish_length).map_err(fail)?;
-    let mut now = surface;
-    for round in 0..params.finish_rounds {
-        ctx.progress(round as f64 / params.finish_rounds as f64)?;
-        let closest = ClosestPoint::new(&now);
-        let (targets, confidence, plane) = targets(&now, &closest, done.plane);
-        done.plane = plane;
-        let moves = field.solve(&targets, &confidence).map_err(fail)?;
+    let mut field = SmoothField::new(&surface).map_err(fail)?;
+    let mut now = surface.clone();
+    let mut aim = Aim::at(&now, plane);
+    let before = aim.asymmetry;
+    let mut rounds = 0;
+    let [mut lambda, shortest] = params.finish_lengths;
+    while rounds < params.finish_rounds && aim.asymmetry > goal {
+        ctx.progress(rounds as f64 / params.finish_rounds as f64)?;
+        let moves = field
+            .solve(&aim.targets, &aim.confidence, lambda)
+            .map_err(fail)?;
         let moved = now.positions.iter().zip(&moves).map(|(x, u)| x + u);
-        now = now.with_positions(moved.collect());
-        done.rounds = round + 1;
+        let next = now.with_positions(moved.collect());
+        let next_aim = Aim::at(&next, aim.plane);
+        if lambda <= shortest && next_aim.asymmetry > STALLED * aim.asymmetry {
+            break;
+        }
+        (now, aim) = (next, next_aim);
+        rounds += 1;
+        lambda = (lambda * REFINE).max(shortest);
     }
-    let squares = now.positions.iter().zip(&start);
-    let total: f64 = squares.map(|(a, b)| (a - b).norm_squared()).sum();
-    done.rms = (total / start.len().max(1) as f64).sqrt();
-    done.positions = now.positions;
-    Ok(done)
+    let (now, undone) = untangle(&surface, now);
+    Ok(Finished {
+        undone,
+        positions: now.positions,
+        plane: aim.plane,
+        rounds,
+        asymmetry: [before, aim.asymmetry],
+    })
 }
 
-/// Each vertex's displacement along its normal (equation 1), the confidence in it, and the mirror
-/// refitted to the pairs.
-fn targets(
-    surface: &Surface,
-    closest: &ClosestPoint,
+/// Where every vertex should go, and how asymmetric the surface is.
+struct Aim {
+    /// Displacement along the normal (equation 1).
+    targets: Vec<Vector>,
+    /// Confidence in each, 0 for none.
+    confidence: Vec<f64>,
+    /// The mirror refitted to the pairs.
     plane: Plane,
-) -> (Vec<Vector>, Vec<f64>, Plane) {
-    let mirror = Isometry::mirror(&plane);
-    let found: Vec<Option<(Point, f64)>> = (0..surface.positions.len())
-        .into_par_iter()
-        .map(|v| partner(surface, closest, &mirror, v))
-        .collect();
+    /// Area-weighted mean distance of the mirrored vertices from the surface.
+    asymmetry: f64,
+}
+
+/// A vertex's partner.
+struct Partner {
+    point: Point,
+    confidence: f64,
+}
+
+impl Aim {
+    fn at(surface: &Surface, plane: Plane) -> Self {
+        let closest = ClosestPoint::new(surface);
+        let mirror = Isometry::mirror(&plane);
+        let found: Vec<(f64, Option<Partner>)> = (0..surface.positions.len())
+            .into_par_iter()
+            .map(|v| partner(surface, &closest, &mirror, v))
+            .collect();
+        let total: f64 = surface.vertex_areas.iter().sum();
+        let weighted = found.iter().zip(&surface.vertex_areas);
+        let asymmetry = weighted.map(|((d, _), a)| d * a).sum::<f64>() / total;
+        let plane = refit(surface, &found).unwrap_or(plane);
+        let mirror = Isometry::mirror(&plane);
+        let mut targets = vec![Vector::zeros(); found.len()];
+        let mut confidence = vec![0.0; found.len()];
+        for (v, (_, partner)) in found.iter().enumerate() {
+            if let Some(q) = partner {
+                let n = surface.vertex_normals[v];
+                let (d_p, _) = displacements(&surface.positions[v], &q.point, &mirror);
+                targets[v] = n * n.dot(&d_p);
+                confidence[v] = q.confidence;
+            }
+        }
+        Self {
+            targets,
+            confidence,
+            plane,
+            asymmetry,
+        }
+    }
+}
+
+/// Appendix A over all vertices and their partners.
+fn refit(surface: &Surface, found: &[(f64, Option<Partner>)]) -> Option<Plane> {
     let pairs: Vec<Correspondence> = found
         .iter()
         .enumerate()
-        .filter_map(|(v, q)| {
-            q.map(|(q, c)| Correspondence {
+        .filter_map(|(v, (_, partner))| {
+            partner.as_ref().map(|q| Correspondence {
                 p: surface.positions[v],
-                q,
-                weight: c * surface.vertex_areas[v],
+                q: q.point,
+                weight: q.confidence * surface.vertex_areas[v],
             })
         })
         .collect();
-    let plane = optimal_mirror(&pairs, Ambient::Space).map_or(plane, |fit| fit.plane);
-    let mirror = Isometry::mirror(&plane);
-    let mut targets = vec![Vector::zeros(); found.len()];
-    let mut confidence = vec![0.0; found.len()];
-    for (v, q) in found.iter().enumerate() {
-        if let Some((q, c)) = q {
-            let n = surface.vertex_normals[v];
-            let (d_p, _) = displacements(&surface.positions[v], q, &mirror);
-            targets[v] = n * n.dot(&d_p);
-            confidence[v] = *c;
-        }
-    }
-    (targets, confidence, plane)
+    optimal_mirror(&pairs, Ambient::Space).map(|fit| fit.plane)
 }
 
-/// The facing surface point closest to the mirror image of vertex `v` and the confidence in it.
+/// The distance of the mirror image of vertex `v` from the surface, and its partner there where the
+/// contact means something.
 fn partner(
     surface: &Surface,
     closest: &ClosestPoint,
     mirror: &Isometry,
     v: usize,
-) -> Option<(Point, f64)> {
+) -> (f64, Option<Partner>) {
     let image = mirror.apply(&surface.positions[v]);
     let normal = mirror.rotate(&surface.vertex_normals[v]);
-    let hit = closest.nearest_facing(&image, &normal, 0.2, REACH)?;
-    let away = image - hit.point;
-    // Sideways contact means the image lies beyond a boundary or a fold.
-    if away.dot(&normal).abs() < 0.5 * hit.distance && hit.distance > 1e-3 {
-        return None;
-    }
-    let point = curved(surface, &hit);
-    let facing = surface.face_normals[hit.at.face as usize]
-        .dot(&normal)
-        .max(0.0);
-    let near = 1.0 - (hit.distance / REACH).powi(2);
-    Some((point, facing.powi(2) * near * near))
+    let nearest = closest.nearest(&image, f64::INFINITY);
+    let distance = nearest.map_or(0.0, |hit| hit.distance);
+    let facing = |hit: &Hit| surface.face_normals[hit.at.face as usize].dot(&normal);
+    let hit = match nearest {
+        Some(hit) if facing(&hit) >= MIN_COS => Some(hit),
+        _ => closest.nearest_facing(&image, &normal, MIN_COS, REACH),
+    };
+    let partner = hit.filter(|hit| hit.distance < REACH).and_then(|hit| {
+        let away = image - hit.point;
+        // Sideways contact means the image lies beyond a boundary or a fold.
+        if away.dot(&normal).abs() < 0.5 * hit.distance && hit.distance > 1e-3 {
+            return None;
+        }
+        let near = 1.0 - (hit.distance / REACH).powi(2);
+        let mutual = mutual(surface, closest, mirror, v, &hit);
+        Some(Partner {
+            point: curved(surface, &hit),
+            confidence: facing(&hit).powi(2) * near * near * mutual,
+        })
+    });
+    (distance, partner)
 }
+
+/// 1 where the partner's own closest point is vertex `v` again, 0 where it is elsewhere: a finger that
+/// is drawn to its neighbour's image is not drawn back.
+fn mutual(
+    surface: &Surface,
+    closest: &ClosestPoint,
+    mirror: &Isometry,
+    v: usize,
+    hit: &Hit,
+) -> f64 {
+    let x = &surface.positions[v];
+    let normal = mirror.rotate(&surface.normal(&hit.at));
+    let back = closest.nearest_facing(&mirror.apply(&hit.point), &normal, MIN_COS, REACH);
+    back.map_or(0.0, |back| {
+        let missed = (back.point - x).norm() / (hit.distance + 0.01);
+        let s = (1.0 - missed).clamp(0.0, 1.0);
+        1.0 - (1.0 - s).powi(4)
+    })
+}
+
+/// Partners face the mirrored normal at least this well.
+const MIN_COS: f64 = 0.2;
 
 /// The hit moved from the flat triangle to the curved surface that its vertex normals suggest.
 ///

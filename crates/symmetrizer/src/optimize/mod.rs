@@ -7,6 +7,7 @@ pub mod merge;
 pub mod moving;
 pub mod params;
 pub mod schedule;
+pub mod untangle;
 
 pub use params::OptimizeParams;
 pub use schedule::{Optimized, Outcome, Step, optimize};

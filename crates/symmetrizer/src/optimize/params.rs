@@ -24,13 +24,16 @@ pub struct OptimizeParams {
     pub merge_angle: f64,
     /// Clusters lower than this share of the highest are left alone. 0.2, ours.
     pub min_height: f64,
-    /// Steps of the last contraction under the final mirror. 15, ours.
+    /// Steps of the last contraction under the final mirror. 25, ours.
     pub final_steps: usize,
-    /// Rounds of the finish at full resolution; 0 for none. 8, ours.
+    /// Rounds of the finish at full resolution at the most; 0 for none. 16, ours.
     pub finish_rounds: usize,
-    /// Smoothing length of the finish, fraction of L: detail below it keeps its own form. 0.012,
-    /// ours.
-    pub finish_length: f64,
+    /// Smoothing lengths of the first and of the last rounds of the finish, fractions of L: detail
+    /// below them keeps its own form. 0.04 and 0.008, ours.
+    pub finish_lengths: [f64; 2],
+    /// The finish stops at this mean asymmetry, fraction of L, if it is also a tenth of the input's;
+    /// going on would rub out detail. 0.0009, ours.
+    pub finish_asymmetry: f64,
     /// Stop when the deformation energy (about the mean square strain) exceeds this; none by
     /// default.
     pub max_deformation: Option<f64>,
@@ -46,9 +49,10 @@ impl Default for OptimizeParams {
             merged_distance: 0.01,
             merge_angle: 65.0,
             min_height: 0.2,
-            final_steps: 15,
-            finish_rounds: 8,
-            finish_length: 0.012,
+            final_steps: 25,
+            finish_rounds: 16,
+            finish_lengths: [0.04, 0.008],
+            finish_asymmetry: 0.0009,
             max_deformation: None,
         }
     }
@@ -74,7 +78,9 @@ impl OptimizeParams {
         within("merged_distance", self.merged_distance, 1e-5, 1.0)?;
         within("merge_angle", self.merge_angle, 0.0, 90.0)?;
         within("min_height", self.min_height, 0.0, 1.0)?;
-        within("finish_length", self.finish_length, 0.0, 1.0)?;
+        within("finish_lengths", self.finish_lengths[0], 0.0, 1.0)?;
+        within("finish_lengths", self.finish_lengths[1], 0.0, 1.0)?;
+        within("finish_asymmetry", self.finish_asymmetry, 0.0, 1.0)?;
         within(
             "max_deformation",
             self.max_deformation.unwrap_or(0.0),

@@ -79,8 +79,10 @@ pub enum Step {
     Finish {
         /// Rounds.
         rounds: usize,
-        /// rms displacement of the vertices, fraction of L.
-        rms: f64,
+        /// Mean distance of mirrored vertices from the surface before and after, fraction of L.
+        asymmetry: [f64; 2],
+        /// Share of the area where it was undone because the surface would have crossed itself.
+        undone: f64,
     },
 }
 
@@ -172,6 +174,7 @@ struct Schedule<'a> {
 
 impl Schedule<'_> {
     fn run(mut self, ctx: &mut Context<'_>) -> Result<Optimized> {
+        let asymmetry_before = self.asymmetry(&self.symmetries[0].plane);
         ctx.stage("contract", |ctx| self.contract_all(ctx))?;
         if self.outcome == Outcome::Converged {
             ctx.stage("merge", |ctx| self.merge_all(ctx))?;
@@ -183,12 +186,13 @@ impl Schedule<'_> {
         let mut positions = self.moving.deformer.positions();
         if self.outcome != Outcome::EnergyLimit && self.settings.optimize.finish_rounds > 0 {
             let now = self.moving.deformer.rest().with_positions(positions);
-            let done = ctx.stage("finish", |ctx| {
-                finish(now, plane, self.settings.optimize, ctx)
-            })?;
+            let params = self.settings.optimize;
+            let goal = params.finish_asymmetry.min(0.1 * asymmetry_before);
+            let done = ctx.stage("finish", |ctx| finish(now, plane, goal, params, ctx))?;
             self.steps.push(Step::Finish {
                 rounds: done.rounds,
-                rms: done.rms,
+                asymmetry: done.asymmetry,
+                undone: done.undone,
             });
             plane = done.plane;
             positions = done.positions;
@@ -200,6 +204,20 @@ impl Schedule<'_> {
             steps: self.steps,
             energy: self.moving.deformer.energy(),
         })
+    }
+
+    /// Mean distance of the mirrored samples from the surface under `plane`, fraction of L.
+    fn asymmetry(&self, plane: &Plane) -> f64 {
+        let now = self.moving.snapshot();
+        let mirror = Isometry::mirror(plane);
+        let list = &now.samples.list;
+        let distances = list.iter().map(|s| {
+            let hit = now
+                .closest
+                .nearest(&mirror.apply(&s.position), f64::INFINITY);
+            hit.map_or(0.0, |hit| hit.distance)
+        });
+        distances.sum::<f64>() / list.len().max(1) as f64
     }
 
     fn contract_all(&mut self, ctx: &mut Context<'_>) -> Result<()> {

@@ -2,11 +2,13 @@
 //! on, points on a surface, closest points, curvature, files, generated models.
 
 pub mod closest;
+pub mod crossings;
 pub mod curvature;
 pub mod io;
 pub mod mesh;
 pub mod models;
 pub mod surface;
+mod triangles_cross;
 pub mod validate;
 
 pub use closest::{ClosestPoint, Hit};

@@ -4,12 +4,12 @@
 //! coordinates (the working coordinates of `before`).
 
 use crate::apply::measure::align::{align_rigidly, best_rotation};
-use crate::apply::measure::crossings::{crossing_faces, new_crossings};
 use crate::apply::measure::curvature::curvature_correlation;
 use crate::apply::measure::percentile;
 use crate::apply::measure::volume::volume;
 use crate::geom::{Matrix3, Point, Vector};
 use crate::shape::Surface;
+use crate::shape::crossings::{crossing_faces, new_crossings};
 
 /// Edges shorter than this fraction of L count as this long, so that a collapsed one gives a
 /// large stretch and not an infinite one; ours.

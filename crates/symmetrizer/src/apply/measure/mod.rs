@@ -2,17 +2,14 @@
 
 mod align;
 pub mod asymmetry;
-pub mod crossings;
 pub mod curvature;
 pub mod distortion;
 mod refine;
 mod report;
 mod search;
-mod triangles_cross;
 mod volume;
 
 pub use asymmetry::{Asymmetry, NearPlane, asymmetry, per_vertex};
-pub use crossings::{crossing_faces, new_crossings};
 pub use curvature::{curvature_correlation, mean_curvature};
 pub use distortion::{Distortion, distortion, inverted_faces};
 pub use report::{AsymmetryReport, Measure, NearReport, PlaneReport};

@@ -65,6 +65,11 @@ impl Binding {
         Point::from(x)
     }
 
+    /// The prisms that vertex `v` hangs on, with their weights.
+    pub fn prisms(&self, v: usize) -> &[(u32, f64)] {
+        &self.weights[v]
+    }
+
     /// The prism with the largest weight at vertex `v`.
     pub fn strongest(&self, v: usize) -> u32 {
         let best = |a: &&(u32, f64), b: &&(u32, f64)| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0));

@@ -72,7 +72,7 @@ impl Joint {
     }
 }
 
-/// Adds w [(a.b) I - b a^T, [a]; -[b], I]: the product of two points' twist Jacobians.
+/// Adds `w [(a.b) I - b a^T, [a]; -[b], I]`: the product of two points' twist Jacobians.
 pub fn add(h: &mut Matrix6<f64>, w: f64, a: &Vector, b: &Vector) {
     let turn = Matrix3::identity() * a.dot(b) - b * a.transpose();
     let mut block = |r, c, m: Matrix3| {

@@ -88,14 +88,21 @@ impl Primo {
         })
     }
 
-    /// The mean over the fine faces nearest to each control face.
+    /// Per-face values of the rest surface as values of the prisms: their own where the surface is its
+    /// own control mesh, else the mean over the faces that hang on each prism.
     fn to_control(&self, per_face: &[f64]) -> Vec<f64> {
+        if self.control.triangles.len() == self.rest.triangles.len() {
+            return per_face.to_vec();
+        }
         let mut sum = vec![(0.0, 0.0); self.control.triangles.len()];
         for (f, corners) in self.rest.triangles.iter().enumerate() {
             for &v in corners {
-                let s = &mut sum[self.binding.strongest(v as usize) as usize];
-                s.0 += per_face[f] * self.rest.face_areas[f];
-                s.1 += self.rest.face_areas[f];
+                for &(prism, share) in self.binding.prisms(v as usize) {
+                    let s = &mut sum[prism as usize];
+                    let w = share * self.rest.face_areas[f];
+                    s.0 += w * per_face[f];
+                    s.1 += w;
+                }
             }
         }
         sum.iter()
@@ -142,7 +149,7 @@ impl Deformer for Primo {
         ctx.check()?;
         if pulls
             .iter()
-            .any(|p| !p.target.iter().all(|c| c.is_finite()) || !(p.weight >= 0.0))
+            .any(|p| !p.target.iter().all(|c| c.is_finite()) || p.weight.is_nan() || p.weight < 0.0)
         {
             return Err(failure(SolveError::Inaccurate, self.steps));
         }
@@ -179,10 +186,16 @@ impl Deformer for Primo {
         if faces.len() != self.rest.triangles.len() {
             return Err(Error::params("fixed", "needs one value for each face"));
         }
-        let share: Vec<f64> = faces.iter().map(|&f| f64::from(u8::from(f))).collect();
-        let share = self.to_control(&share);
-        self.prisms
-            .set_fixed(share.iter().map(|&s| s > 0.5).collect());
+        // Every prism that carries a corner of a fixed face, else the face's rim would give way.
+        let mut fixed = vec![false; self.control.triangles.len()];
+        for (corners, _) in self.rest.triangles.iter().zip(faces).filter(|(_, f)| **f) {
+            for &v in corners {
+                for &(prism, _) in self.binding.prisms(v as usize) {
+                    fixed[prism as usize] = true;
+                }
+            }
+        }
+        self.prisms.set_fixed(fixed);
         Ok(())
     }
 

@@ -28,7 +28,7 @@ impl Motion {
         self.center + self.rotation * (x - self.rest_center)
     }
 
-    /// After the twist (omega, v) about the present centre: turned by exp [omega], moved by v.
+    /// After the twist (omega, v) about the present centre: turned by `exp [omega]`, moved by v.
     /// The exponential keeps the motion rigid; the helical update of the twist diverges for large
     /// steps (METHOD 3.2).
     pub fn twisted(&self, omega: &Vector, v: &Vector) -> Self {

@@ -2,8 +2,8 @@
 mod common;
 
 use common::{load, model, placed, sphere, union, working};
-use symmetrizer::apply::measure::{crossing_faces, new_crossings};
 use symmetrizer::geom::{Point, Vector};
+use symmetrizer::shape::crossings::{crossing_faces, new_crossings};
 use symmetrizer::shape::{Mesh, Surface};
 
 fn two_spheres(shift: Vector) -> Mesh {

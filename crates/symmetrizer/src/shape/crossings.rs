@@ -5,8 +5,8 @@ use parry3d_f64::math::Vector as GlamVector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use rayon::prelude::*;
 
-use crate::apply::measure::triangles_cross::cross;
-use crate::shape::Surface;
+use crate::shape::surface::Surface;
+use crate::shape::triangles_cross::cross;
 
 /// The faces, sorted, that cross another face with which they share no vertex.
 ///
