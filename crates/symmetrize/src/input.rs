@@ -1,11 +1,11 @@
 //! What a verb works on: a mesh file, or a shape that the program generates itself.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
 use symmetrizer::shape::io;
 use symmetrizer::shape::models::Creature;
-use symmetrizer::{Context, Mesh, Result};
+use symmetrizer::{Context, Error, Mesh, Result};
 
 /// Help for inputs.
 pub const HELP: &str = "Mesh file (obj, ply, off, stl), or model:creature or model:creature-at-rest, which are generated";
@@ -15,23 +15,16 @@ pub const HELP: &str = "Mesh file (obj, ply, off, stl), or model:creature or mod
 pub enum Input {
     /// A mesh file.
     File(PathBuf),
-    /// A generated shape, and what it was called.
-    Model(String, Creature),
+    /// The name of a generated shape.
+    Model(String),
 }
 
-impl FromStr for Input {
-    type Err = String;
-
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        let Some(name) = text.strip_prefix("model:") else {
-            return Ok(Self::File(text.into()));
-        };
-        let creature = match name {
-            "creature" => Creature::default(),
-            "creature-at-rest" => Creature::at_rest(),
-            _ => return Err("the models are model:creature and model:creature-at-rest".into()),
-        };
-        Ok(Self::Model(text.to_owned(), creature))
+impl From<OsString> for Input {
+    fn from(text: OsString) -> Self {
+        match text.to_str().and_then(|t| t.strip_prefix("model:")) {
+            Some(name) => Self::Model(name.to_owned()),
+            None => Self::File(text.into()),
+        }
     }
 }
 
@@ -40,7 +33,7 @@ impl Input {
     pub fn read(&self, ctx: &mut Context<'_>) -> Result<Mesh> {
         ctx.stage("read", |_| match self {
             Self::File(path) => io::read(path),
-            Self::Model(_, creature) => Ok(creature.mesh()),
+            Self::Model(name) => generate(name),
         })
     }
 
@@ -48,7 +41,7 @@ impl Input {
     pub fn path(&self) -> Option<&Path> {
         match self {
             Self::File(path) => Some(path),
-            Self::Model(..) => None,
+            Self::Model(_) => None,
         }
     }
 
@@ -56,7 +49,7 @@ impl Input {
     pub fn name(&self) -> String {
         match self {
             Self::File(path) => path.display().to_string(),
-            Self::Model(name, _) => name.clone(),
+            Self::Model(name) => format!("model:{name}"),
         }
     }
 
@@ -65,4 +58,18 @@ impl Input {
         let file = self.path().and_then(Path::file_name);
         file.map_or_else(|| self.name(), |f| f.to_string_lossy().into_owned())
     }
+}
+
+fn generate(name: &str) -> Result<Mesh> {
+    let creature = match name {
+        "creature" => Creature::default(),
+        "creature-at-rest" => Creature::at_rest(),
+        _ => {
+            return Err(Error::input(
+                format!("there is no generated shape model:{name}"),
+                "there are model:creature and model:creature-at-rest",
+            ));
+        }
+    };
+    Ok(creature.mesh())
 }

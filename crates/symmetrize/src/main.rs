@@ -67,7 +67,7 @@ fn answer(cli: &Cli) -> Result<Answer> {
         Verb::Plot(args) => commands::plot::plot(args, &desk),
         Verb::Measure(args) => commands::measure::measure(args, &desk),
         Verb::Render(args) => commands::render::render(args, &desk),
-        Verb::Params(args) => commands::params::params(args, &desk),
+        Verb::Params(args) => commands::params::params(args),
     }
 }
 

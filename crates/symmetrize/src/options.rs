@@ -16,7 +16,7 @@ pub struct Common {
     /// Threads to work with [default: one per core]; the result does not depend on it
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Print nothing but errors
+    /// No progress and no summary, only errors
     #[arg(long, short, global = true)]
     pub quiet: bool,
 }

@@ -9,6 +9,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use symmetrizer::Event;
 use symmetrizer::report::{RunReport, Timing};
 
+use crate::terminal;
+
 /// The clock and, on a terminal, a bar for each stage.
 pub struct Progress(Rc<RefCell<Stages>>);
 
@@ -95,8 +97,14 @@ impl Stages {
         timing.seconds += seconds;
         self.bar.set_message("");
         if self.running.is_empty() {
-            self.bar.set_position(STEPS);
-            self.bar.finish_with_message(format!("{seconds:.1} s"));
+            self.bar.finish_and_clear();
+            // What took no time is not worth a line.
+            if self.visible && seconds >= 0.05 {
+                terminal::note(&format!(
+                    "{:>14}  {seconds:.1} s",
+                    self.timings[index].stage
+                ));
+            }
         }
     }
 
@@ -105,7 +113,7 @@ impl Stages {
             return ProgressBar::hidden();
         }
         let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::stderr());
-        let style = ProgressStyle::with_template("{prefix:>14} {bar:30} {msg}");
+        let style = ProgressStyle::with_template("{prefix:>14}  {bar:30} {msg}");
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         bar.set_prefix(name.to_owned());
         bar.enable_steady_tick(Duration::from_millis(200));

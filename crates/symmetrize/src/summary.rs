@@ -187,7 +187,7 @@ fn outcome(outcome: Outcome) -> &'static str {
 }
 
 /// 12345 as 12,345.
-fn grouped(n: usize) -> String {
+pub fn grouped(n: usize) -> String {
     let digits = n.to_string();
     let mut text = String::new();
     for (i, c) in digits.chars().enumerate() {

@@ -127,7 +127,7 @@ impl Detected {
     /// besides those that the measure looks for itself.
     ///
     /// # Errors
-    /// As [`asymmetry`].
+    /// As [`asymmetry()`].
     pub fn asymmetry(&self, known: &[Plane], ctx: &Context<'_>) -> Result<Asymmetry> {
         let mut planes = known.to_vec();
         planes.extend(self.symmetries().iter().map(|s| s.plane));
@@ -136,6 +136,11 @@ impl Detected {
 }
 
 impl Symmetrized {
+    /// The symmetries of the result, the highest first.
+    pub fn symmetries(&self) -> &[Symmetry] {
+        self.after.as_ref().map_or(&[], Detected::symmetries)
+    }
+
     /// Takes over what was `done`: the moved shape, its symmetries and figures.
     fn conclude(
         &mut self,

@@ -1,5 +1,7 @@
 //! All parameters of a job: a section for each stage, read from TOML, set one by one, checked.
 
+use std::fmt::Write;
+
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
@@ -34,7 +36,7 @@ pub struct Params {
 /// What each parameter may be. The limits keep work and memory finite and formulas defined; within
 /// them not every value is wise.
 const RANGES: [(&str, f64, f64); 25] = [
-    ("sample.count", 100.0, 200_000.0),
+    ("sample.count", 100.0, 20_000.0),
     ("pair.tolerance", 1e-6, 100.0),
     ("pair.partners", 1.0, 1000.0),
     ("pair.min_distance", 0.0, 1.0),
@@ -47,7 +49,7 @@ const RANGES: [(&str, f64, f64); 25] = [
     ("patch.max_rms", 0.0, 1.0),
     ("deform.length", 1e-4, 10.0),
     ("deform.half_height", 1e-5, 1.0),
-    ("deform.control_faces", 20.0, 1e6),
+    ("deform.control_faces", 100.0, 1e6),
     ("optimize.step", 1e-3, 1.0),
     ("optimize.redetect_every", 1.0, 1000.0),
     ("optimize.contract_steps", 0.0, 1000.0),
@@ -74,10 +76,25 @@ impl Params {
         Ok(params)
     }
 
-    /// The parameters as a TOML document that [`Params::from_toml`] reads; one that is off is
-    /// left out.
+    /// The parameters as a TOML document that [`Params::from_toml`] reads, with their ranges as
+    /// comments; one that is off is a comment too.
     pub fn to_toml(&self) -> String {
-        toml::to_string(self).expect("parameters are plain numbers")
+        let mut text = String::new();
+        let mut last = "";
+        for (name, low, high) in RANGES {
+            let (section, field) = name.split_once('.').expect("dotted");
+            if section != last {
+                let gap = if last.is_empty() { "" } else { "\n" };
+                let _ = writeln!(text, "{gap}[{section}]");
+                last = section;
+            }
+            let range = between(low, high);
+            let _ = match self.value(name) {
+                Some(value) => writeln!(text, "{:<28}# {range}", format!("{field} = {value}")),
+                None => writeln!(text, "{:<28}# {range}; off", format!("# {field} =")),
+            };
+        }
+        text
     }
 
     /// Sets the parameter with the dotted name `name` to `value`, as it would be written in TOML;
@@ -117,7 +134,10 @@ impl Params {
                 continue;
             };
             if !(value >= low && value <= high) {
-                return Err(Error::params(name, outside(value, low, high)));
+                return Err(Error::params(
+                    name,
+                    format!("{value} is out of range: {}", between(low, high)),
+                ));
             }
         }
         Ok(())
@@ -153,11 +173,15 @@ impl Params {
         })
     }
 
-    fn number(&self, name: &str) -> Option<f64> {
+    fn value(&self, name: &str) -> Option<Value> {
         let (section, field) = name.split_once('.')?;
-        match self.table().get(section)?.get(field)? {
-            Value::Integer(i) => Some(*i as f64),
-            Value::Float(f) => Some(*f),
+        self.table().get(section)?.get(field).cloned()
+    }
+
+    fn number(&self, name: &str) -> Option<f64> {
+        match self.value(name)? {
+            Value::Integer(i) => Some(i as f64),
+            Value::Float(f) => Some(f),
             _ => None,
         }
     }
@@ -187,11 +211,11 @@ fn parse(name: &str, value: &str) -> Result<Value> {
         .map_err(|_| Error::params(name, format!("{value:?} is not a number")))
 }
 
-fn outside(value: f64, low: f64, high: f64) -> String {
+fn between(low: f64, high: f64) -> String {
     if high < f64::MAX {
-        format!("{value} is not in {low}..={high}")
+        format!("{low}..={high}")
     } else {
-        format!("{value} is not {low} or more")
+        format!("{low} or more")
     }
 }
 
@@ -259,11 +283,11 @@ mod tests {
         fails("nothing", "1", "sample.count");
         fails("optimize", "1", "optimize.step");
         fails("optimize.step", "fast", "\"fast\" is not a number");
-        fails("optimize.step", "NaN", "is not in 0.001..=1");
+        fails("optimize.step", "NaN", "out of range: 0.001..=1");
         fails("optimize.step", "none", "cannot be turned off");
         fails("sample.count", "500.5", "parameter sample.count");
         fails("sample.count", "-1", "parameter sample.count");
-        fails("cluster.bandwidth", "0", "not in");
+        fails("cluster.bandwidth", "0", "0 is out of range");
         fails("optimize.max_deformation", "-0.1", "0 or more");
         assert_eq!(params, Params::default());
         let file = |text: &str| Params::from_toml(text).unwrap_err().to_string();

@@ -109,6 +109,9 @@ pub struct ShapeReport {
     pub vertices: usize,
     /// Triangles after fan triangulation of the document.
     pub faces: usize,
+    /// The document's polygon of each triangle; none where it has triangles only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file_faces: Option<Vec<u32>>,
     /// The bounding-box diagonal D, document units.
     pub diagonal: f64,
     /// The scale L, document units.
@@ -211,10 +214,12 @@ impl MeasureReport {
 impl ShapeReport {
     /// The report on `mesh`, of which `working` is the working surface.
     pub fn new(mesh: &Mesh, working: &Working, asymmetry: Option<AsymmetryReport>) -> Self {
+        let file_faces: Vec<u32> = mesh.triangles().map(|(_, polygon)| polygon).collect();
         Self {
             file: None,
             vertices: mesh.positions.len(),
-            faces: mesh.triangles().count(),
+            faces: file_faces.len(),
+            file_faces: (file_faces.len() != mesh.polygons.len()).then_some(file_faces),
             diagonal: mesh.diagonal(),
             scale: working.normalization.scale,
             validate: Validation::of(mesh, working),

@@ -4,9 +4,10 @@ use clap::Args;
 use symmetrizer::Result;
 
 use crate::Answer;
-use crate::options::{Desk, Tuning};
+use crate::options::Tuning;
+use crate::terminal;
 
-/// Print all parameters as TOML, for --params
+/// Print all parameters with their ranges as TOML, for --params
 #[derive(Args)]
 pub struct ParamsArgs {
     #[command(flatten)]
@@ -14,7 +15,7 @@ pub struct ParamsArgs {
 }
 
 /// The verb.
-pub fn params(args: &ParamsArgs, desk: &Desk) -> Result<Answer> {
-    desk.say(&args.tuning.resolve()?.to_toml());
+pub fn params(args: &ParamsArgs) -> Result<Answer> {
+    terminal::answer(&args.tuning.resolve()?.to_toml());
     Ok(Answer::Yes)
 }

@@ -10,6 +10,7 @@ use crate::Answer;
 use crate::files::{PictureFile, check_distinct, commit};
 use crate::input::{self, Input};
 use crate::options::{Desk, Tuning};
+use crate::summary;
 
 /// Plot the votes for symmetries in transformation space
 ///
@@ -38,7 +39,7 @@ pub fn plot(args: &PlotArgs, desk: &Desk) -> Result<Answer> {
     let title = format!(
         "{}: {} votes, {} symmetries",
         args.input.title(),
-        found.detection.pairs.len(),
+        summary::grouped(found.detection.pairs.len()),
         found.symmetries().len()
     );
     let complete = ctx.stage("picture", |_| {

@@ -18,6 +18,9 @@ const PLANES: usize = 3;
 const REFUSED_COLOR: usize = 9;
 /// Side of the plot of transformation space, pixels.
 const PLOT_SIDE: u32 = 900;
+/// How far a vote is spread in plots, in units of what clustering takes: less shows the ridges
+/// between clusters.
+const SHARPNESS: f64 = 0.5;
 /// Width and height of one view of a sheet, pixels.
 pub const VIEW_SIZE: [u32; 2] = [420, 440];
 /// What colours stand for.
@@ -181,7 +184,7 @@ impl Votes {
             points: &self.points,
             weights: &self.weights,
             modes: &self.modes,
-            bandwidth,
+            bandwidth: SHARPNESS * bandwidth,
             axes,
             title,
         }
