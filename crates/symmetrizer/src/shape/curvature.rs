@@ -191,7 +191,8 @@ mod tests {
             // k1 runs around the tube, across the circle of the torus.
             let ring = Vector::new(-x.y, x.x, 0.0).normalize();
             assert!(fit.e1.dot(&ring).abs() < 0.03);
-            assert!((fit.coverage - 1.0).abs() < 0.15);
+            // With a radius of 2.4 cells the rim counts in whole points.
+            assert!((fit.coverage - 1.0).abs() < 0.2);
         }
     }
 }
