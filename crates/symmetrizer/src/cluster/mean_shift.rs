@@ -151,8 +151,9 @@ impl Votes {
     /// One vote per cell of side h/2 of the leading three axes, the first by index.
     fn starts(&self, h: f64) -> Vec<usize> {
         let mut cells = BTreeMap::new();
+        let origin = self.axes * self.phi.iter().sum::<Phi>() / self.phi.len().max(1) as f64;
         for (i, x) in self.phi.iter().enumerate() {
-            let y = self.axes * x;
+            let y = self.axes * x - origin;
             let cell: [i64; 3] = std::array::from_fn(|k| (y[k] / (0.5 * h)).floor() as i64);
             if self.weights[i] > 0.0 {
                 cells.entry(cell).or_insert(i);
@@ -187,8 +188,9 @@ pub(crate) fn leading_axes<const K: usize>(phi: &[Phi]) -> SMatrix<f64, K, 12> {
     let mut axes = SMatrix::<f64, K, 12>::zeros();
     for (row, &k) in order.iter().take(K).enumerate() {
         let column: SVector<f64, 12> = eigen.eigenvectors.column(k).into_owned();
-        // An eigenvector's sign is arbitrary: fix it, so that plots do not flip.
-        axes.set_row(row, &(column * column[column.iamax()].signum()).transpose());
+        // An eigenvector's sign is arbitrary: the third moment fixes it, also when the shape is turned.
+        let skew: f64 = phi.iter().map(|x| column.dot(&(x - mean)).powi(3)).sum();
+        axes.set_row(row, &(column * skew.signum()).transpose());
     }
     axes
 }

@@ -1,7 +1,7 @@
 //! The control mesh: a few thousand prisms that carry a fine surface.
 
 use crate::error::{Error, Result};
-use crate::geom::Point;
+use crate::geom::{Matrix3, Point, sorted_eigen};
 use crate::shape::Surface;
 
 /// A decimated copy of `surface` with about `faces` triangles, its vertices among the surface's
@@ -13,10 +13,13 @@ pub fn control_mesh(surface: &Surface, faces: usize) -> Result<Surface> {
     if surface.triangles.len() <= faces + faces / 2 {
         return Ok(surface.clone());
     }
+    // The decimator works in single precision: in the shape's own axes it rounds alike however the
+    // shape is turned.
+    let axes = principal_axes(surface);
     let positions: Vec<[f32; 3]> = surface
         .positions
         .iter()
-        .map(|p| [p.x as f32, p.y as f32, p.z as f32])
+        .map(|p| (axes.transpose() * p.coords).map(|c| c as f32).into())
         .collect();
     let indices: Vec<u32> = surface.triangles.iter().flatten().copied().collect();
     let kept = meshopt::simplify_decoder(
@@ -49,4 +52,23 @@ pub fn control_mesh(surface: &Surface, faces: usize) -> Result<Surface> {
         });
     }
     Ok(Surface::new(used, triangles.into()))
+}
+
+/// The principal axes of the surface's area as orthonormal columns; their signs go by the third
+/// moments, so that they turn with the shape.
+fn principal_axes(surface: &Surface) -> Matrix3 {
+    let weighted = || surface.positions.iter().zip(&surface.vertex_areas);
+    let covariance = weighted()
+        .map(|(x, a)| x.coords * x.coords.transpose() * *a)
+        .sum::<Matrix3>();
+    let (_, mut axes) = sorted_eigen(&covariance);
+    for mut axis in axes.column_iter_mut() {
+        let skew: f64 = weighted()
+            .map(|(x, a)| a * axis.dot(&x.coords).powi(3))
+            .sum();
+        if skew < 0.0 {
+            axis.neg_mut();
+        }
+    }
+    axes
 }
