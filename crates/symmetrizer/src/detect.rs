@@ -8,6 +8,7 @@ use crate::patch::grow::Ground;
 use crate::patch::{PatchParams, Refusal, Symmetry, grow_patch};
 use crate::sample::{SampleParams, Samples, sample};
 use crate::shape::{ClosestPoint, Surface};
+use crate::transform::space::Phi;
 use crate::transform::{Isometry, TransformSpace};
 
 /// Parameters of detection, a section for each stage.
@@ -89,30 +90,29 @@ fn verify(
 ) -> Result<(Vec<Symmetry>, Vec<Refusal>)> {
     let mut found: Vec<Symmetry> = Vec::new();
     let mut refused = Vec::new();
+    let h = params.cluster.bandwidth;
+    let mut tried: Vec<Phi> = Vec::new();
     for k in 0..MODES {
         ctx.progress(k as f64 / MODES as f64)?;
-        let Some(best) = clusters
-            .iter()
-            .enumerate()
-            .max_by(|a, b| a.1.height.total_cmp(&b.1.height).then(b.0.cmp(&a.0)))
-            .map(|(i, _)| i)
-        else {
+        let untried = |c: &&Cluster| tried.iter().all(|t| (t - c.mode).norm() > 0.5 * h);
+        let Some(cluster) = clusters.iter().find(untried) else {
             break;
         };
-        let cluster = clusters.swap_remove(best);
         if cluster.votes.len() < MIN_VOTES {
             break;
         }
-        match grow_patch(ground, pairs, &cluster, &params.patch) {
+        tried.push(cluster.mode);
+        match grow_patch(ground, pairs, cluster, &params.patch) {
             Err(refusal) => refused.push(refusal),
             Ok(symmetry) => {
-                let h = params.cluster.bandwidth;
                 let mirror = Isometry::mirror(&symmetry.plane);
                 let known = found
                     .iter()
                     .any(|s| space.distance(&Isometry::mirror(&s.plane), &mirror) < 0.5 * h);
-                explain(votes, pairs, &symmetry, ground.samples.list.len());
-                clusters = votes.climb_all(clusters.iter().map(|c| c.mode).collect(), h);
+                let well = 0.5 * params.patch.tolerance;
+                explain(votes, pairs, &symmetry, ground.samples.list.len(), well);
+                // From all starts again: a mode that stood in the shadow of this one shows now.
+                clusters = votes.clusters(&params.cluster);
                 if !known {
                     found.push(Symmetry {
                         id: found.len() as u32,
@@ -128,9 +128,13 @@ fn verify(
 /// Votes a mode must have left to be looked at.
 const MIN_VOTES: usize = 8;
 
-/// A vote is explained when both of its ends lie in the symmetry's patch: what they look like is
-/// accounted for, whatever mirror they vote for.
-fn explain(votes: &mut Votes, pairs: &[Pair], symmetry: &Symmetry, count: usize) {
-    let member = symmetry.membership(count);
+/// A vote is explained when both of its ends lie well within the symmetry's patch: what they look
+/// like is accounted for, whatever mirror they vote for. Ends that the mirror only just reaches,
+/// as on a round head turned a little on its body, keep their say.
+fn explain(votes: &mut Votes, pairs: &[Pair], symmetry: &Symmetry, count: usize, well: f64) {
+    let mut member = vec![false; count];
+    for pair in symmetry.pairs.iter().filter(|p| p.residual < well) {
+        member[pair.sample as usize] = true;
+    }
     votes.explain_away(|i| member[pairs[i].p as usize] && member[pairs[i].q as usize]);
 }

@@ -46,7 +46,7 @@ const RANGES: [(&str, f64, f64); 26] = [
     ("patch.min_cos", -1.0, 1.0),
     ("patch.min_area", 0.0, 1.0),
     ("patch.max_confusion", 0.0, 1.0),
-    ("patch.max_doubt", 0.0, 10.0),
+    ("patch.max_doubt", 0.0, 2.0),
     ("deform.length", 1e-4, 10.0),
     ("deform.half_height", 1e-5, 1.0),
     ("deform.control_faces", 100.0, 1e6),

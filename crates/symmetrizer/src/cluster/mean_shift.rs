@@ -96,15 +96,10 @@ impl Votes {
     /// made one.
     pub fn clusters(&self, params: &ClusterParams) -> Vec<Cluster> {
         let h = params.bandwidth;
-        let starts = self.starts(h).into_iter().map(|i| self.phi[i]).collect();
-        self.climb_all(starts, h)
-    }
-
-    /// The distinct modes that mean shift reaches from `starts`, highest first.
-    pub fn climb_all(&self, starts: Vec<Phi>, h: f64) -> Vec<Cluster> {
-        let modes: Vec<Option<Cluster>> = starts
+        let modes: Vec<Option<Cluster>> = self
+            .starts(h)
             .into_par_iter()
-            .map(|start| self.climb(start, h))
+            .map(|start| self.climb(self.phi[start], h))
             .collect();
         let mut modes: Vec<Cluster> = modes.into_iter().flatten().collect();
         modes.sort_by(|a, b| b.height.total_cmp(&a.height));
@@ -118,7 +113,7 @@ impl Votes {
     }
 
     /// Mean shift from `start` with kernel radius `h`; `None` where no vote is left near it.
-    pub fn climb(&self, start: Phi, h: f64) -> Option<Cluster> {
+    fn climb(&self, start: Phi, h: f64) -> Option<Cluster> {
         let mut mode = start;
         for _ in 0..50 {
             let near = self.within(&mode, h);

@@ -25,8 +25,8 @@ pub struct PatchParams {
     /// models stay below .105, those of shapes without symmetry start at .138.
     pub max_confusion: f64,
     /// Largest sum of the rms residual, in units of the tolerance, and the confusion: a surface that
-    /// merely passes by fills the tolerance evenly (rms .58) and looks like many places. 0.62, ours:
-    /// true mirrors of the models reach .58, the arms of a chiral shape start at .63.
+    /// merely passes by fills the tolerance evenly (rms .58) and looks like many places. 0.6, ours:
+    /// true mirrors of the models reach .58, the arms of a chiral shape start at .61.
     pub max_doubt: f64,
 }
 
@@ -37,7 +37,7 @@ impl Default for PatchParams {
             min_cos: 0.75,
             min_area: 0.08,
             max_confusion: 0.12,
-            max_doubt: 0.62,
+            max_doubt: 0.6,
         }
     }
 }
