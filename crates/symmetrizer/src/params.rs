@@ -35,7 +35,7 @@ pub struct Params {
 
 /// What each parameter may be. The limits keep work and memory finite and formulas defined; within
 /// them not every value is wise.
-const RANGES: [(&str, f64, f64); 25] = [
+const RANGES: [(&str, f64, f64); 26] = [
     ("sample.count", 100.0, 20_000.0),
     ("pair.tolerance", 1e-6, 100.0),
     ("pair.partners", 1.0, 1000.0),
@@ -59,7 +59,8 @@ const RANGES: [(&str, f64, f64); 25] = [
     ("optimize.min_height", 0.0, 1.0),
     ("optimize.final_steps", 0.0, 1000.0),
     ("optimize.finish_rounds", 0.0, 1000.0),
-    ("optimize.finish_length", 1e-4, 1.0),
+    ("optimize.finish_lengths", 1e-4, 1.0),
+    ("optimize.finish_asymmetry", 0.0, 1.0),
     ("optimize.max_deformation", 0.0, f64::MAX),
 ];
 
@@ -71,7 +72,7 @@ impl Params {
     /// its range.
     pub fn from_toml(text: &str) -> Result<Self> {
         let table: Table = text.parse().map_err(|e| damaged(text, &e))?;
-        let params = Self::from_table(table, None)?;
+        let params = Self::from_table(&table)?;
         params.check()?;
         Ok(params)
     }
@@ -79,20 +80,21 @@ impl Params {
     /// The parameters as a TOML document that [`Params::from_toml`] reads, with their ranges as
     /// comments; one that is off is a comment too.
     pub fn to_toml(&self) -> String {
+        let plain = toml::to_string(self).expect("parameters are plain values");
         let mut text = String::new();
-        let mut last = "";
-        for (name, low, high) in RANGES {
-            let (section, field) = name.split_once('.').expect("dotted");
-            if section != last {
-                let gap = if last.is_empty() { "" } else { "\n" };
-                let _ = writeln!(text, "{gap}[{section}]");
-                last = section;
+        for section in plain.split_inclusive("\n\n") {
+            let end = section.trim_end();
+            let name = end.split(['[', ']']).nth(1).unwrap_or_default();
+            for line in end.lines() {
+                let _ = match range_of(&format!("{name}.{}", field_in(line))) {
+                    Some(range) => writeln!(text, "{line:<32}# {range}"),
+                    None => writeln!(text, "{line}"),
+                };
             }
-            let range = between(low, high);
-            let _ = match self.value(name) {
-                Some(value) => writeln!(text, "{:<28}# {range}", format!("{field} = {value}")),
-                None => writeln!(text, "{:<28}# {range}; off", format!("# {field} =")),
-            };
+            for (field, range) in self.switched_off(name) {
+                let _ = writeln!(text, "{:<32}# {range}; off", format!("# {field} ="));
+            }
+            text += &section[end.len()..].replacen('\n', "", 1);
         }
         text
     }
@@ -106,17 +108,15 @@ impl Params {
     pub fn set(&mut self, name: &str, value: &str) -> Result<()> {
         let mut table = self.table();
         let (section, field) = known(name)?;
-        let stage = table
-            .get_mut(section)
-            .and_then(Value::as_table_mut)
-            .expect("every range names a section");
+        let stage = table.entry(section).or_insert_with(|| Table::new().into());
+        let stage = stage.as_table_mut().expect("a section is a table");
         if value == "none" {
             stage.remove(field);
         } else {
-            stage.insert(field.to_owned(), parse(name, value)?);
+            stage.insert(field.to_owned(), parse(value));
         }
-        let changed = Self::from_table(table, Some(name))?;
-        if value == "none" && changed.number(name).is_some() {
+        let changed = Self::from_table(&table)?;
+        if value == "none" && changed.value(name).is_some() {
             return Err(Error::params(name, "it cannot be turned off"));
         }
         changed.check()?;
@@ -130,14 +130,10 @@ impl Params {
     /// [`Error::Params`] with the first one out of it.
     pub fn check(&self) -> Result<()> {
         for (name, low, high) in RANGES {
-            let Some(value) = self.number(name) else {
-                continue;
-            };
-            if !(value >= low && value <= high) {
-                return Err(Error::params(
-                    name,
-                    format!("{value} is out of range: {}", between(low, high)),
-                ));
+            let inside = |x: &f64| (low..=high).contains(x);
+            if let Some(x) = self.numbers(name).into_iter().find(|x| !inside(x)) {
+                let range = between(low, high);
+                return Err(Error::params(name, format!("{x} is out of range: {range}")));
             }
         }
         Ok(())
@@ -153,24 +149,35 @@ impl Params {
         }
     }
 
-    fn table(&self) -> Table {
-        Table::try_from(self).expect("parameters are plain numbers")
-    }
-
-    /// The parameters in `table`; `changed` is the one to blame for what does not fit its type.
-    fn from_table(table: Table, changed: Option<&str>) -> Result<Self> {
-        for (section, fields) in &table {
+    fn from_table(table: &Table) -> Result<Self> {
+        for (section, fields) in table {
             for (field, value) in fields.as_table().into_iter().flatten() {
                 let name = format!("{section}.{field}");
                 known(&name)?;
-                if !matches!(value, Value::Integer(_) | Value::Float(_)) {
-                    return Err(Error::params(name, format!("{value} is not a number")));
-                }
+                // Alone, so that what does not fit its type has a name.
+                let alone = Table::from_iter([(field.clone(), value.clone())]);
+                let alone = Table::from_iter([(section.clone(), Value::Table(alone))]);
+                alone.try_into::<Self>().map_err(|e| misfit(&name, &e))?;
             }
         }
-        table.try_into().map_err(|e: toml::de::Error| {
-            Error::params(changed.unwrap_or("file"), e.message().replace('\n', " "))
-        })
+        let whole = table.clone().try_into();
+        whole.map_err(|e| misfit("sections", &e))
+    }
+
+    fn table(&self) -> Table {
+        Table::try_from(self).expect("parameters are plain values")
+    }
+
+    /// The parameters of a section that are off, with their ranges.
+    fn switched_off(&self, section: &str) -> Vec<(&'static str, String)> {
+        let off = |name: &str| self.value(name).is_none();
+        RANGES
+            .iter()
+            .filter(|(name, ..)| off(name))
+            .filter_map(|&(name, low, high)| Some((name.split_once('.')?, between(low, high))))
+            .filter(|((of, _), _)| *of == section)
+            .map(|((_, field), range)| (field, range))
+            .collect()
     }
 
     fn value(&self, name: &str) -> Option<Value> {
@@ -178,37 +185,74 @@ impl Params {
         self.table().get(section)?.get(field).cloned()
     }
 
-    fn number(&self, name: &str) -> Option<f64> {
-        match self.value(name)? {
-            Value::Integer(i) => Some(i as f64),
-            Value::Float(f) => Some(f),
+    /// The numbers of a parameter: one, those of a list, none where it is off.
+    fn numbers(&self, name: &str) -> Vec<f64> {
+        let number = |value: &Value| match value {
+            Value::Integer(i) => Some(*i as f64),
+            Value::Float(x) => Some(*x),
             _ => None,
+        };
+        match self.value(name) {
+            Some(Value::Array(list)) => list.iter().filter_map(number).collect(),
+            value => value.iter().filter_map(number).collect(),
         }
     }
 }
 
+/// All dotted names: those of the defaults, and those that are off by default.
+fn names() -> Vec<String> {
+    let defaults = Params::default().table();
+    let mut names: Vec<String> = defaults
+        .iter()
+        .flat_map(|(section, fields)| {
+            let fields = fields.as_table().into_iter().flatten();
+            fields.map(move |(field, _)| format!("{section}.{field}"))
+        })
+        .chain(RANGES.iter().map(|r| r.0.to_owned()))
+        .collect();
+    names.sort();
+    names.dedup();
+    names
+}
+
 /// The section and field of a known dotted name.
 fn known(name: &str) -> Result<(&str, &str)> {
-    let listed = |section: Option<&str>| -> String {
-        let of = |n: &&str| section.is_none_or(|s| n.split('.').next() == Some(s));
-        let names: Vec<&str> = RANGES.iter().map(|r| r.0).filter(of).collect();
-        names.join(", ")
-    };
-    if RANGES.iter().any(|(n, ..)| *n == name)
-        && let Some(parts) = name.split_once('.')
+    let all = names();
+    if let Some(parts) = name.split_once('.')
+        && all.iter().any(|n| n == name)
     {
         return Ok(parts);
     }
-    let near = listed(Some(name.split('.').next().unwrap_or(name)));
-    let choice = if near.is_empty() { listed(None) } else { near };
+    let section = name.split('.').next();
+    let near = all.iter().filter(|n| n.split('.').next() == section);
+    let near: Vec<&str> = near.map(String::as_str).collect();
+    let choice = if near.is_empty() {
+        all.join(", ")
+    } else {
+        near.join(", ")
+    };
     Err(Error::params(name, format!("unknown; there are {choice}")))
 }
 
-fn parse(name: &str, value: &str) -> Result<Value> {
-    let number = value.parse::<i64>().map(Value::Integer);
-    number
-        .or_else(|_| value.parse::<f64>().map(Value::Float))
-        .map_err(|_| Error::params(name, format!("{value:?} is not a number")))
+/// A value as TOML has it; what is none is text.
+fn parse(value: &str) -> Value {
+    let table = format!("value = {value}").parse::<Table>();
+    let parsed = table.ok().and_then(|mut t| t.remove("value"));
+    parsed.unwrap_or_else(|| Value::String(value.to_owned()))
+}
+
+fn misfit(name: &str, error: &toml::de::Error) -> Error {
+    Error::params(name, error.message().replace('\n', " "))
+}
+
+fn range_of(name: &str) -> Option<String> {
+    let (_, low, high) = RANGES.iter().find(|r| r.0 == name)?;
+    Some(between(*low, *high))
+}
+
+/// The field that a line of TOML sets.
+fn field_in(line: &str) -> &str {
+    line.split('=').next().unwrap_or_default().trim()
 }
 
 fn between(low: f64, high: f64) -> String {
@@ -242,15 +286,14 @@ mod tests {
             },
             ..Params::default()
         };
-        for (section, fields) in params.table() {
-            for (field, _) in fields.as_table().unwrap() {
-                let name = format!("{section}.{field}");
-                assert!(known(&name).is_ok(), "{name} has no entry in RANGES");
-            }
+        for name in names() {
+            assert!(range_of(&name).is_some(), "{name} has no entry in RANGES");
         }
         for (name, low, high) in RANGES {
-            let value = params.number(name).expect(name);
-            assert!(low <= value && value <= high, "{name}: default {value}");
+            let values = params.numbers(name);
+            assert!(!values.is_empty(), "{name} is in RANGES, but there is none");
+            let inside = values.iter().all(|x| (low..=high).contains(x));
+            assert!(inside, "{name}: default {values:?}");
         }
     }
 
@@ -282,13 +325,15 @@ mod tests {
         fails("optimize.stepp", "1", "optimize.redetect_every");
         fails("nothing", "1", "sample.count");
         fails("optimize", "1", "optimize.step");
-        fails("optimize.step", "fast", "\"fast\" is not a number");
-        fails("optimize.step", "NaN", "out of range: 0.001..=1");
+        fails("optimize.step", "fast", "string \"fast\", expected f64");
+        fails("optimize.step", "nan", "out of range: 0.001..=1");
         fails("optimize.step", "none", "cannot be turned off");
         fails("sample.count", "500.5", "parameter sample.count");
         fails("sample.count", "-1", "parameter sample.count");
         fails("cluster.bandwidth", "0", "0 is out of range");
         fails("optimize.max_deformation", "-0.1", "0 or more");
+        fails("optimize.finish_lengths", "[0.1, 5]", "5 is out of range");
+        fails("optimize.finish_lengths", "0.1", "expected an array");
         assert_eq!(params, Params::default());
         let file = |text: &str| Params::from_toml(text).unwrap_err().to_string();
         assert!(file("[optimize]\nstep =").contains("line 2"));

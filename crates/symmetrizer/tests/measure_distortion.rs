@@ -4,9 +4,10 @@ mod common;
 
 use common::{load, model, placed, planar_grid, sphere, working};
 use symmetrizer::apply::measure::{
-    crossing_faces, curvature_correlation, distortion, inverted_faces, mean_curvature,
+    curvature_correlation, distortion, inverted_faces, mean_curvature,
 };
 use symmetrizer::geom::{Point, Vector};
+use symmetrizer::shape::crossings::crossing_faces;
 use symmetrizer::shape::{Mesh, Surface};
 
 fn moved(surface: &Surface, motion: impl Fn(&Point) -> Point) -> Surface {
