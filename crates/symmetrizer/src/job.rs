@@ -1,6 +1,5 @@
 //! The whole paper: detection, contraction, merging and the figures before and after, in a row.
 
-mod ids;
 mod measured;
 pub mod pictures;
 
@@ -11,7 +10,7 @@ use crate::error::Result;
 use crate::optimize::schedule::Settings;
 use crate::optimize::{Optimized, Outcome, optimize};
 use crate::params::Params;
-use crate::patch::Symmetry;
+use crate::patch::{Symmetry, carry_ids};
 use crate::report::faces::FaceSamples;
 use crate::report::{Head, InputReport, Report, ResultReport, symmetry};
 use crate::shape::Mesh;
@@ -98,7 +97,7 @@ pub fn symmetrize(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result
         report,
     };
     if done.outcome != Outcome::NoSymmetry {
-        job.conclude(done, &faces, params, ctx)?;
+        job.conclude(done, params, ctx)?;
     }
     job.report.warnings = ctx.warnings().to_vec();
     Ok(job)
@@ -142,13 +141,7 @@ impl Symmetrized {
     }
 
     /// Takes over what was `done`: the moved shape, its symmetries and figures.
-    fn conclude(
-        &mut self,
-        done: Optimized,
-        faces_before: &FaceSamples,
-        params: &Params,
-        ctx: &mut Context<'_>,
-    ) -> Result<()> {
+    fn conclude(&mut self, done: Optimized, params: &Params, ctx: &mut Context<'_>) -> Result<()> {
         let before = &self.before;
         self.shape = before.working.moved_document(&self.shape, &done.positions);
         let working = Working {
@@ -160,7 +153,11 @@ impl Symmetrized {
             Detected::find(working, diagonal, params, ctx)
         })?;
         let faces = FaceSamples::of(&after);
-        ids::carry((before, faces_before), (&mut after, &faces));
+        carry_ids(
+            &before.working.surface,
+            (&before.detection.samples, &before.detection.symmetries),
+            (&after.detection.samples, &mut after.detection.symmetries),
+        );
         let result = ctx.stage("measure again", |ctx| {
             let known: Vec<Plane> = done.plane.into_iter().collect();
             let measured = after.asymmetry(&known, ctx)?;

@@ -38,6 +38,10 @@ const REACH: f64 = 0.05;
 /// Factor of the smoothing length from round to round.
 const REFINE: f64 = 0.8;
 
+/// The first rounds, whose smoothing length is far above any detail, are run in any case: they cost
+/// nothing and draw in what the mean does not show, such as the tip of an ear.
+const COARSE_ROUNDS: usize = 5;
+
 /// A round that leaves more than this share of the asymmetry gains nothing that is worth its change.
 const STALLED: f64 = 0.98;
 
@@ -64,7 +68,7 @@ pub fn finish(
     let before = aim.asymmetry;
     let mut rounds = 0;
     let [mut lambda, shortest] = params.finish_lengths;
-    let mut reached = aim.asymmetry <= goal;
+    let mut reached = false;
     while !reached && rounds < params.finish_rounds {
         ctx.progress(rounds as f64 / params.finish_rounds as f64)?;
         let moves = field
@@ -75,8 +79,9 @@ pub fn finish(
         if lambda <= shortest && next_aim.asymmetry > STALLED * aim.asymmetry {
             break;
         }
-        reached = next_aim.asymmetry <= goal;
-        if reached {
+        let below = next_aim.asymmetry <= goal;
+        reached = below && rounds + 1 >= COARSE_ROUNDS;
+        if reached && aim.asymmetry > goal {
             // No further than the goal: the part of the last round that takes it there.
             let fraction = (aim.asymmetry - goal) / (aim.asymmetry - next_aim.asymmetry);
             next = displaced(&now, &moves, fraction);
@@ -87,6 +92,9 @@ pub fn finish(
         lambda = (lambda * REFINE).max(shortest);
     }
     let (now, undone) = untangle(&surface, now);
+    if undone > 0.0 {
+        aim = Aim::at(&now, aim.plane);
+    }
     Ok(Finished {
         undone,
         positions: now.positions,

@@ -28,8 +28,8 @@ pub struct Couple {
 pub struct Moving<'a> {
     /// The deformation.
     pub deformer: &'a mut dyn Deformer,
-    /// The samples at rest.
-    pub samples: &'a Samples,
+    /// The samples; they ride along, so only their place on the surface counts here.
+    pub samples: Samples,
     /// Stiffness length l, fraction of L.
     pub length: f64,
     /// Time step dt.

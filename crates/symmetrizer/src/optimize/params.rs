@@ -29,7 +29,7 @@ pub struct OptimizeParams {
     /// Rounds of the finish at full resolution at the most; 0 for none. 16, ours.
     pub finish_rounds: usize,
     /// Smoothing lengths of the first and of the last rounds of the finish, fractions of L: detail
-    /// below them keeps its own form. 0.04 and 0.008, ours.
+    /// below them keeps its own form. 0.04 and 0.002, ours.
     pub finish_lengths: [f64; 2],
     /// The finish stops at this mean asymmetry, fraction of L, if it is also a tenth of the input's;
     /// going on would rub out detail. 0.00085, ours.
@@ -51,7 +51,7 @@ impl Default for OptimizeParams {
             min_height: 0.2,
             final_steps: 25,
             finish_rounds: 16,
-            finish_lengths: [0.04, 0.008],
+            finish_lengths: [0.04, 0.002],
             finish_asymmetry: 0.00085,
             max_deformation: None,
         }

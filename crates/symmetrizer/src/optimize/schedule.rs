@@ -14,7 +14,8 @@ use crate::optimize::finish::finish;
 use crate::optimize::merge::{merge, ownership};
 use crate::optimize::moving::Moving;
 use crate::optimize::params::OptimizeParams;
-use crate::patch::Symmetry;
+use crate::patch::{Symmetry, carry_ids};
+use crate::sample::Samples;
 use crate::shape::Surface;
 use crate::transform::{Isometry, Plane};
 
@@ -139,7 +140,7 @@ pub fn optimize(
     }
     let mut deformer = ctx.stage("prepare", |_| Primo::new(surface, settings.deform))?;
     let moving = Moving {
-        samples: &detection.samples,
+        samples: detection.samples.clone(),
         length: settings.deform.length,
         step: settings.optimize.step,
         deformer: &mut deformer,
@@ -265,7 +266,7 @@ impl Schedule<'_> {
                 self.settings.optimize,
                 ctx,
             )?;
-            let found = self.detect_again(ctx)?;
+            let (samples, found) = self.detect_again(ctx)?;
             let kept = coverage(&found) > covered + MIN_GAIN;
             self.steps.push(Step::Merge {
                 symmetries: ids,
@@ -276,6 +277,7 @@ impl Schedule<'_> {
                 kept,
             });
             if kept {
+                self.moving.samples = samples;
                 self.symmetries = found;
             } else {
                 self.moving.deformer.restore(&before);
@@ -321,15 +323,15 @@ impl Schedule<'_> {
         best.map(|(_, i, j, owned)| (i, j, owned))
     }
 
-    /// Detection on the shape as it is now, on the same samples' surface points.
-    fn detect_again(&self, ctx: &mut Context<'_>) -> Result<Vec<Symmetry>> {
-        let surface = self
-            .moving
-            .deformer
-            .rest()
-            .with_positions(self.moving.deformer.positions());
-        let found = detect(&surface, self.settings.detect, ctx)?.symmetries;
-        Ok(worthwhile(&found, self.settings.optimize.min_height))
+    /// Detection on the shape as it is now; what was known keeps its id.
+    fn detect_again(&self, ctx: &mut Context<'_>) -> Result<(Samples, Vec<Symmetry>)> {
+        let rest = self.moving.deformer.rest();
+        let surface = rest.with_positions(self.moving.deformer.positions());
+        let found = detect(&surface, self.settings.detect, ctx)?;
+        let mut symmetries = worthwhile(&found.symmetries, self.settings.optimize.min_height);
+        let known = (&self.moving.samples, self.symmetries.as_slice());
+        carry_ids(rest, known, (&found.samples, &mut symmetries));
+        Ok((found.samples, symmetries))
     }
 
     fn contract_whole(&mut self, plane: Plane, ctx: &mut Context<'_>) -> Result<Plane> {
