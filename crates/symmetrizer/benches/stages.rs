@@ -120,7 +120,7 @@ fn detection(c: &mut Criterion, b: &Bunny) {
     let ground = Ground {
         surface: &b.surface,
         closest: &closest,
-        samples: &b.found.samples,
+        samples: b.found.samples.clone(),
     };
     stage(c, "patch of the highest cluster", || {
         grow_patch(&ground, &b.found.pairs, &clusters[0], &b.detect.patch)
@@ -136,7 +136,7 @@ fn deformation(c: &mut Criterion, b: &Bunny) {
     let rest = deformer.state();
     let mut moving = Moving {
         deformer: &mut deformer,
-        samples: &b.found.samples,
+        samples: b.found.samples.clone(),
         length: b.deform.length,
         step: b.optimize.step,
     };

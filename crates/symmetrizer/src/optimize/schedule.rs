@@ -188,7 +188,7 @@ impl Schedule<'_> {
         if self.outcome != Outcome::EnergyLimit && self.settings.optimize.finish_rounds > 0 {
             let now = self.moving.deformer.rest().with_positions(positions);
             let params = self.settings.optimize;
-            let goal = params.finish_asymmetry.min(0.1 * asymmetry_before);
+            let goal = params.finish_asymmetry.min(0.085 * asymmetry_before);
             let done = ctx.stage("finish", |ctx| finish(now, plane, goal, params, ctx))?;
             self.steps.push(Step::Finish {
                 rounds: done.rounds,
