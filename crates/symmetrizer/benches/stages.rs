@@ -120,7 +120,7 @@ fn detection(c: &mut Criterion, b: &Bunny) {
     let ground = Ground {
         surface: &b.surface,
         closest: &closest,
-        samples: b.found.samples.clone(),
+        samples: &b.found.samples,
     };
     stage(c, "patch of the highest cluster", || {
         grow_patch(&ground, &b.found.pairs, &clusters[0], &b.detect.patch)

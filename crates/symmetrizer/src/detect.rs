@@ -98,7 +98,11 @@ fn verify(
         let Some(cluster) = clusters.iter().find(untried) else {
             break;
         };
-        if cluster.votes.len() < MIN_VOTES {
+        let highest = found
+            .iter()
+            .map(|s: &Symmetry| s.height)
+            .fold(0.0, f64::max);
+        if cluster.votes.len() < MIN_VOTES || cluster.height < params.patch.min_height * highest {
             break;
         }
         tried.push(cluster.mode);

@@ -378,7 +378,7 @@ fn form(x: &Point) -> Point {
 }
 
 /// The shape at rest under `count` samples drawn to `form` with time step `dt`: each step goes the
-/// share dt of the way with the weight A_s / (l^2 dt) (FORMATS: stiffness is a length).
+/// share dt of the way with the weight A_s / (l^2 dt) (docs/definitions.md: stiffness is a length).
 fn settled(s: &Surface, count: usize, dt: f64, steps: usize) -> Vec<Point> {
     let mut p = primo(s);
     let (samples, _) = blue_noise(s, count, &mut Context::new(3).rng("samples"));

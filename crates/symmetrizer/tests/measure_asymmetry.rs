@@ -267,25 +267,3 @@ fn distances_per_vertex_agree_with_the_mean() {
         .sum();
     assert!((sum / w.surface.area() / a.mean - 1.0).abs() < 0.03);
 }
-
-/// Prints the figures of the models named in PROBE (comma-separated, under the data directory).
-#[test]
-#[ignore = "a table for people"]
-fn table() {
-    for name in std::env::var("PROBE").unwrap_or_default().split(',') {
-        let Some(path) = model(name) else { continue };
-        let start = std::time::Instant::now();
-        let a = measured(&load(&path));
-        println!(
-            "{name}: {:.2} s, mean {:.4} rms {:.4} p95 {:.4} p99 {:.4} max {:.4}, {:?}, near {:?}",
-            start.elapsed().as_secs_f64(),
-            a.mean,
-            a.rms,
-            a.p95,
-            a.p99,
-            a.max,
-            a.plane,
-            a.also_near.iter().map(|n| n.mean).collect::<Vec<_>>()
-        );
-    }
-}

@@ -205,23 +205,3 @@ fn the_same_bits_with_one_and_two_threads() {
     };
     assert_eq!(run(1), run(2));
 }
-
-/// Prints what a bend of the model PROBE costs and how long measuring it takes.
-#[test]
-#[ignore = "a table for people"]
-fn table() {
-    let Some(path) = model(&std::env::var("PROBE").unwrap_or_default()) else {
-        return;
-    };
-    let (w, diagonal) = working(&load(&path));
-    let after = moved(&w.surface, |p| Point::new(p.x, p.y + 0.3 * p.x * p.x, p.z));
-    let start = std::time::Instant::now();
-    let crossing = crossing_faces(&w.surface).len();
-    println!(
-        "{crossing} crossing faces, {:.2} s",
-        start.elapsed().as_secs_f64()
-    );
-    let start = std::time::Instant::now();
-    let d = distortion(&w.surface, &after, diagonal);
-    println!("{d:#?}, {:.2} s", start.elapsed().as_secs_f64());
-}

@@ -6,7 +6,7 @@ use crate::cluster::mean_shift::leading_axes;
 use crate::transform::space::Phi;
 
 /// Two axes of transformation space: those along which a set of votes spreads most. The same as
-/// classical multidimensional scaling of the votes' displacement distances (METHOD 9); keep one
+/// classical multidimensional scaling of the votes' displacement distances; keep one
 /// projection for pictures that are to be compared.
 #[derive(Debug, Clone)]
 pub struct Projection {

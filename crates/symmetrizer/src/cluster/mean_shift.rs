@@ -15,7 +15,7 @@ use crate::transform::space::Phi;
 #[serde(default, deny_unknown_fields)]
 pub struct ClusterParams {
     /// Kernel radius h as rms displacement, fraction of L. 0.1, ours: at half of it the bunny's
-    /// body splits along a ridge (FINDINGS).
+    /// body splits along a ridge.
     pub bandwidth: f64,
 }
 

@@ -20,7 +20,7 @@ pub struct Pull {
     /// Where it should go, working coordinates.
     pub target: Point,
     /// Weight w of w |x - target|^2 against the deformation energy, dimensionless (area over
-    /// squared stiffness length, FORMATS.md).
+    /// squared stiffness length, docs/definitions.md).
     pub weight: f64,
 }
 

@@ -11,7 +11,7 @@ use crate::transform::{
     Ambient, Correspondence, Isometry, Plane, TransformSpace, displacements, optimal_mirror,
 };
 
-/// Rounds at the most: five suffice (section 4.1, figure 5; FINDINGS).
+/// Rounds at the most: five suffice (section 4.1, figure 5).
 const ROUNDS: usize = 8;
 
 /// What gliding did to a cluster.

@@ -158,7 +158,8 @@ fn step(
     Ok(Some(deformed.energy))
 }
 
-/// The optimal mirror of both parts together, each with the same total weight (METHOD 8.2).
+/// The optimal mirror of both parts together, each with the same total weight, so
+/// that both parts turn.
 fn pooled(parts: &[Part; 2], ends: &[Vec<(Point, Point)>; 2]) -> Option<Plane> {
     let mut pairs = Vec::new();
     for (part, ends) in parts.iter().zip(ends) {

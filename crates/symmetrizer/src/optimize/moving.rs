@@ -87,7 +87,7 @@ impl Moving<'_> {
     /// its two ends for a full step.
     ///
     /// A sample of area A_s pulls with A_s / l^2, shared by its two ends, over dt: the result then
-    /// depends neither on dt nor on the number of samples (METHOD 3.5).
+    /// depends neither on dt nor on the number of samples (decision 0004).
     ///
     /// # Errors
     /// As [`Deformer::deform`].

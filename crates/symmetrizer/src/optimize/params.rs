@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 #[serde(default, deny_unknown_fields)]
 pub struct OptimizeParams {
     /// Time step dt. 0.3, ours; the paper took 0.1. Constraint weights go with 1/dt, so the result
-    /// does not depend on it (METHOD 3.5).
+    /// does not depend on it (decision 0004).
     pub step: f64,
     /// Steps between two pairings. 5, paper section 4.2.
     pub redetect_every: usize,
@@ -17,9 +17,9 @@ pub struct OptimizeParams {
     /// Steps of one merge at the most. 30, ours.
     pub merge_steps: usize,
     /// Two clusters are merged when their mirrors are this close, rms displacement over both
-    /// supports, fraction of L. 0.01, ours (FINDINGS).
+    /// supports, fraction of L. 0.01, ours.
     pub merged_distance: f64,
-    /// Largest angle in degrees between mirrors that are merged. 65, ours (FINDINGS; the bunny's
+    /// Largest angle in degrees between mirrors that are merged. 65, ours (the bunny's
     /// are 55 apart).
     pub merge_angle: f64,
     /// Clusters lower than this share of the highest are left alone. 0.2, ours.

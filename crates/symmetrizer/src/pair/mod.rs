@@ -16,10 +16,10 @@ pub struct PairParams {
     /// Largest signature distance of a pair, dimensionless. 0.35, ours: measured on the models.
     pub tolerance: f64,
     /// Partners that a sample keeps at the most, the most alike first. 12, ours: 5 to 50 differed
-    /// little (FINDINGS).
+    /// little on the models.
     pub partners: usize,
     /// Smallest distance of the two points, fraction of L. 0.06, ours: the error of a vote's
-    /// normal grows with its inverse (METHOD 1.4).
+    /// normal grows with its inverse.
     pub min_distance: f64,
     /// Largest |R n_p - n_q| of the normals under the pair's mirror. 0.5, ours (29 degrees).
     pub normal_tolerance: f64,
@@ -74,7 +74,7 @@ pub fn mirror_pairs(
     Ok(pairs)
 }
 
-/// 1 / the number of samples with a like signature: the one weight that matters (FINDINGS: without
+/// 1 / the number of samples with a like signature: the one weight that matters (without
 /// it the bunny's head is lost among its back's votes).
 fn distinctiveness(samples: &Samples, tolerance: f64) -> Vec<f64> {
     let list = &samples.list;

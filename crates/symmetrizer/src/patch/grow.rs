@@ -15,9 +15,9 @@ use crate::transform::{Ambient, Correspondence, Isometry, MirrorFit, Plane, opti
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PatchParams {
-    /// Largest distance of a mirrored sample from the surface, fraction of L. 0.02, ours (FINDINGS).
+    /// Largest distance of a mirrored sample from the surface, fraction of L. 0.02, ours.
     pub tolerance: f64,
-    /// Smallest cosine between mirrored and found normal. 0.75, ours (41 degrees, FINDINGS).
+    /// Smallest cosine between mirrored and found normal. 0.75, ours (41 degrees).
     pub min_cos: f64,
     /// Smallest share of the surface's area for a symmetry. 0.08, ours.
     pub min_area: f64,
@@ -28,6 +28,9 @@ pub struct PatchParams {
     /// merely passes by fills the tolerance evenly (rms .58) and looks like many places. 0.6, ours:
     /// true mirrors of the models reach .58, the arms of a chiral shape start at .61.
     pub max_doubt: f64,
+    /// Smallest height of a symmetry's cluster, as a share of the highest: what fewer votes speak for
+    /// is chance. 0.1, ours.
+    pub min_height: f64,
 }
 
 impl Default for PatchParams {
@@ -38,6 +41,7 @@ impl Default for PatchParams {
             min_area: 0.08,
             max_confusion: 0.12,
             max_doubt: 0.6,
+            min_height: 0.1,
         }
     }
 }

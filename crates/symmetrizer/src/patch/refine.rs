@@ -23,7 +23,7 @@ pub struct Contact {
     pub weight: f64,
 }
 
-/// Share of the point-to-point term beside point-to-plane: enough to hold what slides (FINDINGS).
+/// Share of the point-to-point term beside point-to-plane: enough to hold what slides (ours).
 const POINT_TO_POINT: f64 = 0.05;
 
 /// One Gauss-Newton step of the plane towards its contacts; the plane itself where the contacts

@@ -14,7 +14,7 @@ use crate::shape::surface::{Surface, SurfacePoint};
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SampleParams {
-    /// Samples wanted; 100 at least. 2000, ours: 800 were too few, 4000 no better (FINDINGS).
+    /// Samples wanted; 100 at least. 2000, ours: 800 were too few and 4000 no better on the models.
     pub count: usize,
 }
 

@@ -4,7 +4,7 @@ use crate::geom::Vector;
 use crate::shape::curvature::{Cloud, Curvature};
 use crate::shape::surface::{Surface, SurfacePoint};
 
-/// The number of radii: r0, 2 r0, 4 r0 (FORMATS: r0 = max(0.02 L, 2.5 mean edges)).
+/// The number of radii: r0, 2 r0, 4 r0 (docs/definitions.md: r0 = max(0.02 L, 2.5 mean edges)).
 pub const SCALES: usize = 3;
 
 /// Curvatures at each radius r as (asinh k1 r, asinh k2 r): dimensionless, the same for a shape
@@ -61,7 +61,7 @@ pub fn describe(
     (Signature(signature), e1, middle.map_or(n, |k| k.normal))
 }
 
-/// Below this share of a full disc the ball hangs over a boundary (METHOD 2).
+/// Below this share of a full disc the ball hangs over a boundary.
 const MIN_COVERAGE: f64 = 0.6;
 
 /// Curvature difference, in units of 1/r, above which principal directions are worth comparing.

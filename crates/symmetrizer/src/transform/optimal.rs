@@ -46,7 +46,7 @@ pub struct MirrorFit {
 
 impl MirrorFit {
     /// The conditioning test: the normal is determined and the pairs do speak for a mirror
-    /// (thresholds: METHOD 7.6 as measured on degenerate sets).
+    /// (thresholds measured on degenerate sets: spheres, half-turns, translations).
     pub fn is_well_conditioned(&self) -> bool {
         self.gap > 0.05 && self.explained > 0.9
     }

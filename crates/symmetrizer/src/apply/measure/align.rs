@@ -1,4 +1,5 @@
-//! The best rotation and the best rigid motion between corresponding points (METHOD 7.4).
+//! The best rotation and the best rigid motion between corresponding points (Kabsch; the
+//! determinant corrected).
 //!
 //! The letters: p, q corresponding points, w their weights, ~ about the weighted means;
 //! H = sum w p~ q~^T = U S V^T, R = V diag(1, 1, det(V U^T)) U^T, so that R p ~ q.

@@ -15,7 +15,7 @@ use crate::sample::uniform::uniform;
 use crate::shape::{ClosestPoint, Surface};
 use crate::transform::isometry::Plane;
 
-/// Samples mirrored; FORMATS.
+/// Samples mirrored (docs/definitions.md).
 const SAMPLES: usize = 20_000;
 /// A plane is near-equal when its mean is at most this multiple of the best; ours.
 const NEAR_RATIO: f64 = 1.25;

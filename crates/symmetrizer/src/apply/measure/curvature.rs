@@ -13,9 +13,10 @@ use crate::shape::Surface;
 /// Cotangents stay within this, those of about 3 and 177 degrees: beyond it a triangle is so thin
 /// that its angles are noise; ours.
 const MAX_COT: f64 = 20.0;
-/// Radius of the averaging, fraction of L; FORMATS (the smallest curvature radius r0).
+/// Radius of the averaging, fraction of L (docs/definitions.md: the smallest
+/// curvature radius r0).
 const RADIUS: f64 = 0.02;
-/// ... and at least so many mean edges, so that coarse meshes are smoothed too; FORMATS.
+/// ... and at least so many mean edges, so that coarse meshes are smoothed too.
 const EDGES: f64 = 2.5;
 
 /// Integrated curvature and area of each vertex.

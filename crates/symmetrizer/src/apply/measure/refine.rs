@@ -16,7 +16,7 @@ use crate::geom::{Matrix3, Point, Vector, any_orthogonal};
 use crate::shape::ClosestPoint;
 use crate::transform::isometry::Plane;
 
-/// Weight of sliding against approaching: ours; 0.05 in the prototype (FINDINGS, Detection).
+/// Weight of sliding against approaching: ours.
 const BETA: f64 = 0.05;
 /// Below this share of the mean a distance counts as this share, so that the samples which
 /// already fit do not hold the plane where it is; ours.

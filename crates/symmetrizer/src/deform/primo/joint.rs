@@ -1,4 +1,4 @@
-//! The elastic joint between two prisms (Botsch et al. 2006; METHOD 3.1).
+//! The elastic joint between two prisms (Botsch et al. 2006).
 //!
 //! E_ij = integral over the shared side face of |f_ij - f_ji|^2, w_ij = |e|^2 / (A_i + A_j). The
 //! integrand is biquadratic, so the mean over 2x2 Gauss points is the integral; both prisms carry

@@ -23,10 +23,10 @@ use prisms::{PrismPull, Prisms};
 #[serde(default, deny_unknown_fields)]
 pub struct DeformParams {
     /// Stiffness length l, fraction of L: asymmetry on larger scales follows, smaller is kept by
-    /// the shell. 0.05, FORMATS.md.
+    /// the shell. 0.05, docs/definitions.md.
     pub length: f64,
     /// Half height of the prisms, fraction of L: bending stiffness grows with its square. 0.02,
-    /// ours (FINDINGS: .005 gave spikes).
+    /// ours (.005 gave spikes).
     pub half_height: f64,
     /// Faces of the control mesh. 4000, ours.
     pub control_faces: usize,

@@ -30,7 +30,7 @@ impl Motion {
 
     /// After the twist (omega, v) about the present centre: turned by `exp [omega]`, moved by v.
     /// The exponential keeps the motion rigid; the helical update of the twist diverges for large
-    /// steps (METHOD 3.2).
+    /// steps.
     pub fn twisted(&self, omega: &Vector, v: &Vector) -> Self {
         // Left as it accumulates, the product of many rotations would drift from orthogonality.
         let turned = nalgebra::Rotation3::from_matrix_eps(

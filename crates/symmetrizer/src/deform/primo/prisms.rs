@@ -37,7 +37,7 @@ pub struct Prisms {
 }
 
 /// Pair weights |e|^2 / (A_i + A_j) are clamped to this range: slivers would else lock or tear
-/// (FINDINGS).
+/// (ours).
 const WEIGHT_RANGE: (f64, f64) = (1e-3, 50.0);
 
 /// Weight of the joint that ties a separate component to its nearest neighbour, beside 1 to 3 for
@@ -73,7 +73,7 @@ impl Prisms {
         })
     }
 
-    /// Sets each prism's stiffness; a joint takes the harmonic mean of its two (METHOD 3.1).
+    /// Sets each prism's stiffness; a joint takes the harmonic mean of its two.
     pub fn set_stiffness(&mut self, k: &[f64]) {
         for (joint, base) in self.joints.iter_mut().zip(&self.base_weights) {
             let (a, b) = (k[joint.i], k[joint.j]);
