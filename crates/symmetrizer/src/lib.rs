@@ -28,3 +28,8 @@ pub use optimize::schedule::Outcome;
 pub use params::Params;
 pub use report::Report;
 pub use shape::mesh::Mesh;
+
+/// The README's example, compiled as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

@@ -7,7 +7,6 @@ use symmetrizer::apply::measure::{
     curvature_correlation, distortion, inverted_faces, mean_curvature,
 };
 use symmetrizer::geom::{Point, Vector};
-use symmetrizer::shape::crossings::crossing_faces;
 use symmetrizer::shape::{Mesh, Surface};
 
 fn moved(surface: &Surface, motion: impl Fn(&Point) -> Point) -> Surface {
