@@ -103,6 +103,9 @@ pub fn symmetrize(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result
     Ok(job)
 }
 
+/// Mean asymmetry, % of D, that may come and go with the triangulation.
+const WORSE: f64 = 0.01;
+
 impl Detected {
     fn find(
         working: Working,
@@ -157,6 +160,7 @@ impl Symmetrized {
             &before.working.surface,
             (&before.detection.samples, &before.detection.symmetries),
             (&after.detection.samples, &mut after.detection.symmetries),
+            done.next_id,
         );
         let result = ctx.stage("measure again", |ctx| {
             let known: Vec<Plane> = done.plane.into_iter().collect();
@@ -171,6 +175,20 @@ impl Symmetrized {
                 symmetries: symmetry::all(&after, &faces),
             })
         })?;
+        let was = self
+            .report
+            .input
+            .shape
+            .asymmetry
+            .as_ref()
+            .map_or(0.0, |a| a.mean);
+        if result.asymmetry.mean > 1.05 * was + WORSE {
+            ctx.warn(format!(
+                "as a whole the result is less symmetric than the input ({:.3} % of D, was {was:.3}): \
+                 a part was made symmetric at the cost of the rest",
+                result.asymmetry.mean
+            ));
+        }
         self.report.result = Some(result);
         self.after = Some(after);
         Ok(())

@@ -35,7 +35,7 @@ pub struct Params {
 
 /// What each parameter may be. The limits keep work and memory finite and formulas defined; within
 /// them not every value is wise.
-const RANGES: [(&str, f64, f64); 27] = [
+const RANGES: [(&str, f64, f64); 28] = [
     ("sample.count", 100.0, 20_000.0),
     ("pair.tolerance", 1e-6, 100.0),
     ("pair.partners", 1.0, 1000.0),
@@ -46,6 +46,7 @@ const RANGES: [(&str, f64, f64); 27] = [
     ("patch.min_cos", -1.0, 1.0),
     ("patch.min_area", 0.0, 1.0),
     ("patch.max_confusion", 0.0, 1.0),
+    ("pair.min_strength", 0.0, 10.0),
     ("patch.max_doubt", 0.0, 2.0),
     ("patch.min_height", 0.0, 1.0),
     ("deform.length", 1e-4, 10.0),

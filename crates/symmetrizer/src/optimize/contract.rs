@@ -25,6 +25,49 @@ pub struct Contracted {
     pub limited: bool,
 }
 
+impl Contracted {
+    fn start(moving: &Moving<'_>, plane: Plane) -> Self {
+        Self {
+            plane,
+            steps: 0,
+            cost: [0.0; 2],
+            couples: 0,
+            energy: moving.deformer.energy(),
+            limited: false,
+        }
+    }
+}
+
+/// One contraction step and its figures; false where it must not go on: the mirror is undetermined, or
+/// the step would have passed the energy limit and was taken back.
+fn advance(
+    moving: &mut Moving<'_>,
+    couples: &[Couple],
+    done: &mut Contracted,
+    params: &OptimizeParams,
+    ctx: &mut Context<'_>,
+) -> Result<bool> {
+    let before = moving.deformer.state();
+    let Some((fit, deformed)) = moving.contract_step(couples, ctx)? else {
+        return Ok(false);
+    };
+    if params.max_deformation.is_some_and(|m| deformed.energy > m) {
+        moving.deformer.restore(&before);
+        done.limited = true;
+        return Ok(false);
+    }
+    let cost = fit.cost / couples.iter().map(|c| c.weight).sum::<f64>();
+    if done.steps == 0 {
+        done.cost[0] = cost;
+    }
+    done.cost[1] = cost;
+    done.plane = fit.plane;
+    done.steps += 1;
+    done.couples = couples.len();
+    done.energy = deformed.energy;
+    Ok(true)
+}
+
 /// Contracts the patch of `symmetry`: glide, then `steps` of the optimal mirror, optimal
 /// displacements and deformation, pairs renewed on the way.
 ///
@@ -39,14 +82,7 @@ pub fn contract(
     ctx: &mut Context<'_>,
 ) -> Result<Contracted> {
     let member = symmetry.membership(moving.samples.list.len());
-    let mut done = Contracted {
-        plane: symmetry.plane,
-        steps: 0,
-        cost: [0.0; 2],
-        couples: 0,
-        energy: moving.deformer.energy(),
-        limited: false,
-    };
+    let mut done = Contracted::start(moving, symmetry.plane);
     let mut couples: Vec<Couple> = Vec::new();
     for k in 0..steps {
         if k % params.redetect_every == 0 {
@@ -63,20 +99,7 @@ pub fn contract(
                 done.plane = glided.plane;
             }
         }
-        let Some((fit, deformed)) = moving.contract_step(&couples, ctx)? else {
-            break;
-        };
-        let cost = fit.cost / couples.iter().map(|c| c.weight).sum::<f64>();
-        if k == 0 {
-            done.cost[0] = cost;
-        }
-        done.cost[1] = cost;
-        done.plane = fit.plane;
-        done.steps = k + 1;
-        done.couples = couples.len();
-        done.energy = deformed.energy;
-        if params.max_deformation.is_some_and(|m| deformed.energy > m) {
-            done.limited = true;
+        if !advance(moving, &couples, &mut done, params, ctx)? {
             break;
         }
     }
@@ -95,14 +118,7 @@ pub fn contract_whole(
     params: &OptimizeParams,
     ctx: &mut Context<'_>,
 ) -> Result<Contracted> {
-    let mut done = Contracted {
-        plane,
-        steps: 0,
-        cost: [0.0; 2],
-        couples: 0,
-        energy: moving.deformer.energy(),
-        limited: false,
-    };
+    let mut done = Contracted::start(moving, plane);
     let rounds = params.final_steps.div_ceil(params.redetect_every).max(1);
     let mut couples = Vec::new();
     for k in 0..params.final_steps {
@@ -113,20 +129,7 @@ pub fn contract_whole(
             let reach = WIDE * (1.0 - narrowing) + NARROW * narrowing;
             couples = guided_couples(&moving.snapshot(), &done.plane, reach, 0.3, |_| true);
         }
-        let Some((fit, deformed)) = moving.contract_step(&couples, ctx)? else {
-            break;
-        };
-        let cost = fit.cost / couples.iter().map(|c| c.weight).sum::<f64>();
-        if k == 0 {
-            done.cost[0] = cost;
-        }
-        done.cost[1] = cost;
-        done.plane = fit.plane;
-        done.steps = k + 1;
-        done.couples = couples.len();
-        done.energy = deformed.energy;
-        if params.max_deformation.is_some_and(|m| deformed.energy > m) {
-            done.limited = true;
+        if !advance(moving, &couples, &mut done, params, ctx)? {
             break;
         }
     }

@@ -76,8 +76,14 @@ pub fn finish(
             .map_err(fail)?;
         let mut next = displaced(&now, &moves, 1.0);
         let mut next_aim = Aim::at(&next, aim.plane);
-        if lambda <= shortest && next_aim.asymmetry > STALLED * aim.asymmetry {
-            break;
+        if rounds >= COARSE_ROUNDS && next_aim.asymmetry > STALLED * aim.asymmetry {
+            if lambda <= shortest {
+                break;
+            }
+            // Nothing to gain at this length: try the next without taking the round.
+            rounds += 1;
+            lambda = (lambda * REFINE).max(shortest);
+            continue;
         }
         let below = next_aim.asymmetry <= goal;
         reached = below && rounds + 1 >= COARSE_ROUNDS;

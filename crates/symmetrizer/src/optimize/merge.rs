@@ -81,16 +81,18 @@ pub fn merge(
         if k % params.redetect_every == 0 {
             renew(moving, &mut parts, patch);
         }
+        let before = moving.deformer.state();
         let Some(energy) = step(moving, &mut parts, &mut done, ctx)? else {
             break;
         };
+        if params.max_deformation.is_some_and(|m| energy > m) {
+            moving.deformer.restore(&before);
+            done.limited = true;
+            break;
+        }
         done.steps = k + 1;
         done.energy = energy;
         if done.distance[1] < params.merged_distance {
-            break;
-        }
-        if params.max_deformation.is_some_and(|m| energy > m) {
-            done.limited = true;
             break;
         }
     }

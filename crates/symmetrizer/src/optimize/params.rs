@@ -31,7 +31,7 @@ pub struct OptimizeParams {
     /// Smoothing lengths of the first and of the last rounds of the finish, fractions of L: detail
     /// below them keeps its own form. 0.04 and 0.002, ours.
     pub finish_lengths: [f64; 2],
-    /// The finish stops at this mean asymmetry, fraction of L, if it is also a tenth of the input's;
+    /// The finish stops at this mean asymmetry, fraction of L, if it is also a twelfth of the input's;
     /// going on would rub out detail. 0.00085, ours.
     pub finish_asymmetry: f64,
     /// Stop when the deformation energy (about the mean square strain) exceeds this; none by

@@ -27,7 +27,7 @@ pub enum Outcome {
     Converged,
     /// The deformation energy reached its limit; the shape is as it was then.
     EnergyLimit,
-    /// A merge ran out of steps.
+    /// A merge ran out of steps before its mirrors met.
     StepLimit,
     /// No symmetry was found; the shape is unchanged.
     NoSymmetry,
@@ -97,8 +97,10 @@ pub struct Optimized {
     pub outcome: Outcome,
     /// What was done, in order.
     pub steps: Vec<Step>,
-    /// Deformation energy of the result.
+    /// Deformation energy of the prisms; the finish, which adds little, is not in it.
     pub energy: f64,
+    /// The first id that no symmetry of the run had.
+    pub next_id: u32,
 }
 
 /// Parameters of [`optimize`].
@@ -114,6 +116,9 @@ pub struct Settings<'a> {
 
 /// Coverage that a merge must add to be kept.
 const MIN_GAIN: f64 = 0.02;
+
+/// The finish goes on until the asymmetry is this share of the input's, too.
+const FINISH_SHARE: f64 = 0.085;
 
 /// Merges tried at the most.
 const MERGES: usize = 4;
@@ -136,6 +141,7 @@ pub fn optimize(
             outcome: Outcome::NoSymmetry,
             steps: Vec::new(),
             energy: 0.0,
+            next_id: 0,
         });
     }
     let mut deformer = ctx.stage("prepare", |_| Primo::new(surface, settings.deform))?;
@@ -148,21 +154,79 @@ pub fn optimize(
     Schedule {
         moving,
         settings,
-        symmetries: worthwhile(&detection.symmetries, settings.optimize.min_height),
+        symmetries: worthwhile(
+            &detection.symmetries,
+            settings,
+            detection.samples.list.len(),
+        ),
         steps: Vec::new(),
         outcome: Outcome::Converged,
+        failed: Vec::new(),
+        next_id: detection
+            .symmetries
+            .iter()
+            .map(|s| s.id + 1)
+            .max()
+            .unwrap_or(0),
     }
     .run(ctx)
 }
 
-/// Symmetries that are not far lower than the highest.
-fn worthwhile(found: &[Symmetry], min_height: f64) -> Vec<Symmetry> {
+/// Symmetries to enhance, the main one first: not far lower than the highest, by how much of the
+/// surface they hold for and how well; of two that claim the same ground and cannot be merged, the
+/// first.
+fn worthwhile(found: &[Symmetry], settings: Settings<'_>, count: usize) -> Vec<Symmetry> {
     let highest = found.iter().map(|s| s.height).fold(0.0, f64::max);
-    found
+    let rank = |s: &Symmetry| s.area_fraction * (1.0 - s.rms / settings.detect.patch.tolerance);
+    let mut ordered: Vec<&Symmetry> = found
         .iter()
-        .filter(|s| s.height >= min_height * highest)
-        .cloned()
-        .collect()
+        .filter(|s| s.height >= settings.optimize.min_height * highest)
+        .collect();
+    ordered.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
+    let mut kept: Vec<Symmetry> = Vec::new();
+    for s in ordered {
+        let conflict = |k: &Symmetry| {
+            shared(k, s, count) > MAX_SHARED && mergeable(k, s, settings.optimize, count).is_none()
+        };
+        if !kept.iter().any(conflict) {
+            kept.push(s.clone());
+        }
+    }
+    kept
+}
+
+/// A symmetry that shares more than this of its patch with a better one contradicts it, unless both
+/// can be merged.
+const MAX_SHARED: f64 = 0.6;
+
+/// The share of the smaller patch that lies in both.
+fn shared(a: &Symmetry, b: &Symmetry, count: usize) -> f64 {
+    let (member_a, member_b) = (a.membership(count), b.membership(count));
+    let both = member_a
+        .iter()
+        .zip(&member_b)
+        .filter(|(a, b)| **a && **b)
+        .count();
+    both as f64 / a.pairs.len().min(b.pairs.len()).max(1) as f64
+}
+
+/// The samples that speak for each of two symmetries alone, if the two may be merged: mirrors not too
+/// far apart in angle, and enough ground of their own.
+fn mergeable(
+    s: &Symmetry,
+    t: &Symmetry,
+    params: &OptimizeParams,
+    count: usize,
+) -> Option<[Vec<bool>; 2]> {
+    if s.plane.normal.dot(&t.plane.normal).abs() < params.merge_angle.to_radians().cos() {
+        return None;
+    }
+    let owned = ownership(s, t, count);
+    let large = [s, t].iter().zip(&owned).all(|(s, own)| {
+        let kept = own.iter().filter(|o| **o).count();
+        2 * kept > s.pairs.len()
+    });
+    large.then_some(owned)
 }
 
 struct Schedule<'a> {
@@ -171,16 +235,20 @@ struct Schedule<'a> {
     symmetries: Vec<Symmetry>,
     steps: Vec<Step>,
     outcome: Outcome,
+    /// Ids of symmetries whose merge was undone.
+    failed: Vec<[u32; 2]>,
+    /// The id that the next new symmetry gets; ids are never reused.
+    next_id: u32,
 }
 
 impl Schedule<'_> {
     fn run(mut self, ctx: &mut Context<'_>) -> Result<Optimized> {
-        let asymmetry_before = self.asymmetry(&self.symmetries[0].plane);
+        let asymmetry_before = self.asymmetry(&self.main().plane);
         ctx.stage("contract", |ctx| self.contract_all(ctx))?;
-        if self.outcome == Outcome::Converged {
+        if self.outcome != Outcome::EnergyLimit {
             ctx.stage("merge", |ctx| self.merge_all(ctx))?;
         }
-        let mut plane = self.symmetries[0].plane;
+        let mut plane = self.main().plane;
         if self.outcome != Outcome::EnergyLimit {
             plane = ctx.stage("contract whole", |ctx| self.contract_whole(plane, ctx))?;
         }
@@ -188,7 +256,7 @@ impl Schedule<'_> {
         if self.outcome != Outcome::EnergyLimit && self.settings.optimize.finish_rounds > 0 {
             let now = self.moving.deformer.rest().with_positions(positions);
             let params = self.settings.optimize;
-            let goal = params.finish_asymmetry.min(0.085 * asymmetry_before);
+            let goal = params.finish_asymmetry.min(FINISH_SHARE * asymmetry_before);
             let done = ctx.stage("finish", |ctx| finish(now, plane, goal, params, ctx))?;
             self.steps.push(Step::Finish {
                 rounds: done.rounds,
@@ -204,7 +272,13 @@ impl Schedule<'_> {
             outcome: self.outcome,
             steps: self.steps,
             energy: self.moving.deformer.energy(),
+            next_id: self.next_id,
         })
+    }
+
+    /// The symmetry that the whole is to have: the one that holds for most of the surface, best.
+    fn main(&self) -> &Symmetry {
+        &self.symmetries[0]
     }
 
     /// Mean distance of the mirrored samples from the surface under `plane`, fraction of L.
@@ -267,7 +341,8 @@ impl Schedule<'_> {
                 ctx,
             )?;
             let (samples, found) = self.detect_again(ctx)?;
-            let kept = coverage(&found) > covered + MIN_GAIN;
+            // At the energy limit the merge stays as far as it came.
+            let kept = done.limited || coverage(&found) > covered + MIN_GAIN;
             self.steps.push(Step::Merge {
                 symmetries: ids,
                 steps: done.steps,
@@ -281,9 +356,13 @@ impl Schedule<'_> {
                 self.symmetries = found;
             } else {
                 self.moving.deformer.restore(&before);
-                self.symmetries.remove(j);
+                self.failed.push(ids);
+                continue;
             }
-            if done.limited && kept {
+            if done.distance[1] >= self.settings.optimize.merged_distance {
+                self.outcome = Outcome::StepLimit;
+            }
+            if done.limited {
                 self.outcome = Outcome::EnergyLimit;
                 break;
             }
@@ -297,22 +376,16 @@ impl Schedule<'_> {
         let space = crate::transform::TransformSpace::new(
             self.moving.samples.list.iter().map(|s| (s.position, 1.0)),
         );
-        let min_cos = self.settings.optimize.merge_angle.to_radians().cos();
         let mut best: Option<(f64, usize, usize, [Vec<bool>; 2])> = None;
         for i in 0..self.symmetries.len() {
             for j in i + 1..self.symmetries.len() {
                 let (s, t) = (&self.symmetries[i], &self.symmetries[j]);
-                if s.plane.normal.dot(&t.plane.normal).abs() < min_cos {
+                if self.failed.contains(&[s.id, t.id]) {
                     continue;
                 }
-                let owned = ownership(s, t, count);
-                let large = [s, t].iter().zip(&owned).all(|(s, own)| {
-                    let kept = own.iter().filter(|o| **o).count();
-                    2 * kept > s.pairs.len()
-                });
-                if !large {
+                let Some(owned) = mergeable(s, t, self.settings.optimize, count) else {
                     continue;
-                }
+                };
                 let mirrors = (Isometry::mirror(&s.plane), Isometry::mirror(&t.plane));
                 let distance = space.distance(&mirrors.0, &mirrors.1);
                 if best.as_ref().is_none_or(|b| distance < b.0) {
@@ -324,13 +397,13 @@ impl Schedule<'_> {
     }
 
     /// Detection on the shape as it is now; what was known keeps its id.
-    fn detect_again(&self, ctx: &mut Context<'_>) -> Result<(Samples, Vec<Symmetry>)> {
+    fn detect_again(&mut self, ctx: &mut Context<'_>) -> Result<(Samples, Vec<Symmetry>)> {
         let rest = self.moving.deformer.rest();
         let surface = rest.with_positions(self.moving.deformer.positions());
         let found = detect(&surface, self.settings.detect, ctx)?;
-        let mut symmetries = worthwhile(&found.symmetries, self.settings.optimize.min_height);
+        let mut symmetries = worthwhile(&found.symmetries, self.settings, found.samples.list.len());
         let known = (&self.moving.samples, self.symmetries.as_slice());
-        carry_ids(rest, known, (&found.samples, &mut symmetries));
+        self.next_id = carry_ids(rest, known, (&found.samples, &mut symmetries), self.next_id);
         Ok((found.samples, symmetries))
     }
 

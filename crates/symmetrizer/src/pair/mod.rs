@@ -23,6 +23,9 @@ pub struct PairParams {
     pub min_distance: f64,
     /// Largest |R n_p - n_q| of the normals under the pair's mirror. 0.5, ours (29 degrees).
     pub normal_tolerance: f64,
+    /// Smallest signature strength max |asinh k r| of a sample that votes: flat ground looks the same
+    /// everywhere. 0.05, ours.
+    pub min_strength: f64,
 }
 
 impl Default for PairParams {
@@ -32,6 +35,7 @@ impl Default for PairParams {
             partners: 12,
             min_distance: 0.06,
             normal_tolerance: 0.5,
+            min_strength: 0.05,
         }
     }
 }
@@ -94,6 +98,9 @@ fn distinctiveness(samples: &Samples, tolerance: f64) -> Vec<f64> {
 
 /// The best partners of sample `p`, as pairs with the smaller index first.
 fn partners(list: &[Sample], p: usize, params: &PairParams, rarity: &[f64]) -> Vec<Pair> {
+    if list[p].signature.strength() < params.min_strength {
+        return Vec::new();
+    }
     let mut found: Vec<(f64, usize, Plane)> = (0..list.len())
         .filter(|&q| q != p)
         .filter_map(|q| {

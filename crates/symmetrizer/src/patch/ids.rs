@@ -9,13 +9,14 @@ use crate::shape::Surface;
 const MIN_OVERLAP: f64 = 0.5;
 
 /// Gives each of the symmetries `after` the id of the one `before` with which its patch has the most
-/// in common, the highest first, and new ids to the rest. Both were found on states of one surface,
+/// in common, the first first, and ids from `next` on to the rest; returns the next free id. Both were found on states of one surface,
 /// whose rest state places the samples of both.
 pub fn carry_ids(
     rest: &Surface,
     before: (&Samples, &[Symmetry]),
     after: (&Samples, &mut [Symmetry]),
-) {
+    mut next: u32,
+) -> u32 {
     let (samples, symmetries) = before;
     let (samples_after, symmetries_after) = after;
     let places: Vec<[f64; 3]> = samples_after
@@ -35,7 +36,6 @@ pub fn carry_ids(
         })
         .collect();
     let mut earlier: Vec<&Symmetry> = symmetries.iter().collect();
-    let mut next = earlier.iter().map(|s| s.id + 1).max().unwrap_or(0);
     for s in symmetries_after {
         let member = s.membership(samples_after.list.len());
         s.id = match take_largest(&mut earlier, &successor, &member) {
@@ -46,6 +46,7 @@ pub fn carry_ids(
             }
         };
     }
+    next
 }
 
 /// Takes out of `earlier` the one with the most samples in `member`, if they are enough of its own.
