@@ -50,7 +50,7 @@ const HOUSE: &[Floor] = &[
     floor(TOP, "params"),
     floor(TOP, "report"),
     floor(TOP, "job"),
-    floor(TOP, "session"),
+    floor(TOP),
 ];
 
 /// The top floor is one household: its modules may use each other.

@@ -43,7 +43,7 @@ const REFINE: f64 = 0.8;
 const COARSE_ROUNDS: usize = 5;
 
 /// A round that leaves more than this share of the asymmetry gains nothing that is worth its change.
-const STALLED: f64 = 0.98;
+const STALLED: f64 = 0.995;
 
 /// Runs the rounds of the finish on `surface` under the mirror `plane` until the mean asymmetry is
 /// `goal` (fraction of L) or falls no further.
