@@ -1,4 +1,4 @@
-//! Output files: reserved before the slow work, written after it, all of them or none.
+//! Output files: reserved before the slow work, each written whole, then renamed one after the other.
 
 use std::path::{Path, PathBuf};
 

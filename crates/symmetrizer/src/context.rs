@@ -44,6 +44,8 @@ pub struct Context<'a> {
     cancel: CancelToken,
     sink: Box<dyn FnMut(Event<'_>) + 'a>,
     warnings: Vec<Warning>,
+    /// How far the running stage is; stages may nest.
+    reached: f64,
 }
 
 impl Default for Context<'_> {
@@ -65,6 +67,7 @@ impl<'a> Context<'a> {
             cancel,
             sink: Box::new(sink),
             warnings: Vec::new(),
+            reached: 0.0,
         }
     }
 
@@ -87,7 +90,9 @@ impl<'a> Context<'a> {
     pub fn stage<T>(&mut self, name: &str, work: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
         self.check()?;
         (self.sink)(Event::Begin(name));
+        let outer = std::mem::replace(&mut self.reached, 0.0);
         let result = work(self);
+        self.reached = outer;
         (self.sink)(Event::End(name));
         result
     }
@@ -95,7 +100,8 @@ impl<'a> Context<'a> {
     /// Reports how far the running stage is, and fails with [`Error::Cancelled`] when asked to stop.
     pub fn progress(&mut self, fraction: f64) -> Result<()> {
         self.check()?;
-        (self.sink)(Event::Progress(fraction.clamp(0.0, 1.0)));
+        self.reached = self.reached.max(fraction.clamp(0.0, 1.0));
+        (self.sink)(Event::Progress(self.reached));
         Ok(())
     }
 

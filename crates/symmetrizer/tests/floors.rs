@@ -50,7 +50,6 @@ const HOUSE: &[Floor] = &[
     floor(TOP, "params"),
     floor(TOP, "report"),
     floor(TOP, "job"),
-    floor(TOP),
 ];
 
 /// The top floor is one household: its modules may use each other.

@@ -4,12 +4,10 @@
 use rayon::prelude::*;
 
 use crate::geom::Point;
-use crate::optimize::moving::Couple;
+use crate::optimize::moving::{Couple, fit_mirror};
 use crate::patch::grow::Ground;
 use crate::shape::SurfacePoint;
-use crate::transform::{
-    Ambient, Correspondence, Isometry, Plane, TransformSpace, displacements, optimal_mirror,
-};
+use crate::transform::{Isometry, Plane, TransformSpace, displacements};
 
 /// Rounds at the most: five suffice (section 4.1, figure 5).
 const ROUNDS: usize = 8;
@@ -31,7 +29,7 @@ pub fn glide(ground: &Ground<'_>, couples: &mut [Couple]) -> Option<Glided> {
     let list = &ground.samples.list;
     let space = TransformSpace::new(list.iter().map(|s| (s.position, 1.0)));
     let origin: Vec<(Point, Point)> = ends(ground, couples);
-    let mut plane = fit(couples, &origin)?;
+    let mut plane = fit_mirror(couples, &origin)?.plane;
     let mut variance = vec![spread(&space, couples, &origin)];
     for _ in 0..ROUNDS {
         let mirror = Isometry::mirror(&plane);
@@ -41,7 +39,7 @@ pub fn glide(ground: &Ground<'_>, couples: &mut [Couple]) -> Option<Glided> {
             .map(|(c, start)| glide_couple(ground, c, start, &mirror))
             .collect();
         let places = ends(ground, &moved);
-        let Some(next) = fit(&moved, &places) else {
+        let Some(next) = fit_mirror(&moved, &places) else {
             break;
         };
         let now = spread(&space, &moved, &places);
@@ -50,7 +48,7 @@ pub fn glide(ground: &Ground<'_>, couples: &mut [Couple]) -> Option<Glided> {
             break;
         }
         couples.copy_from_slice(&moved);
-        plane = next;
+        plane = next.plane;
         variance.push(now);
         if now > 0.99 * before {
             break;
@@ -62,19 +60,6 @@ pub fn glide(ground: &Ground<'_>, couples: &mut [Couple]) -> Option<Glided> {
 fn ends(ground: &Ground<'_>, couples: &[Couple]) -> Vec<(Point, Point)> {
     let place = |at: &SurfacePoint| ground.surface.point(at);
     couples.iter().map(|c| (place(&c.p), place(&c.q))).collect()
-}
-
-fn fit(couples: &[Couple], ends: &[(Point, Point)]) -> Option<Plane> {
-    let pairs: Vec<Correspondence> = couples
-        .iter()
-        .zip(ends)
-        .map(|(c, (p, q))| Correspondence {
-            p: *p,
-            q: *q,
-            weight: c.weight,
-        })
-        .collect();
-    optimal_mirror(&pairs, Ambient::Space).map(|fit| fit.plane)
 }
 
 fn glide_couple(

@@ -33,7 +33,8 @@ pub enum Outcome {
     NoSymmetry,
 }
 
-/// One step of the schedule as it was done; parameters and ids suffice to do it again.
+/// One step of the schedule as it was done; the same steps follow again from the same input,
+/// parameters and seed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "step", rename_all = "snake_case")]
 pub enum Step {
