@@ -26,6 +26,9 @@ pub struct Merged {
     pub limited: bool,
 }
 
+/// Near the energy limit steps are halved down to this part of the time step.
+const SMALLEST_STEP: f64 = 16.0;
+
 /// One of the two parts: its couples and the samples they came from.
 struct Part {
     couples: Vec<Couple>,
@@ -76,6 +79,7 @@ pub fn merge(
         energy: moving.deformer.energy(),
         limited: false,
     };
+    let dt = moving.step;
     for k in 0..params.merge_steps {
         ctx.progress(k as f64 / params.merge_steps as f64)?;
         if k % params.redetect_every == 0 {
@@ -87,15 +91,21 @@ pub fn merge(
         };
         if params.max_deformation.is_some_and(|m| energy > m) {
             moving.deformer.restore(&before);
-            done.limited = true;
-            break;
+            // Closer to the limit in smaller steps, before giving up.
+            moving.step /= 2.0;
+            done.limited = moving.step < dt / SMALLEST_STEP;
+            if done.limited {
+                break;
+            }
+            continue;
         }
-        done.steps = k + 1;
+        done.steps += 1;
         done.energy = energy;
         if done.distance[1] < params.merged_distance {
             break;
         }
     }
+    moving.step = dt;
     Ok(done)
 }
 
