@@ -1,7 +1,7 @@
 //! The schedule of section 4.2: contract the clusters, the biggest first, then merge them greedily,
 //! then make the whole symmetric under the final mirror.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::context::Context;
 use crate::deform::Primo;
@@ -35,7 +35,7 @@ pub enum Outcome {
 
 /// One step of the schedule as it was done; the same steps follow again from the same input,
 /// parameters and seed.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "step", rename_all = "snake_case")]
 pub enum Step {
     /// A cluster was contracted.
