@@ -126,6 +126,19 @@ impl Surface {
         self.face_areas.iter().sum()
     }
 
+    /// The sides of all triangles, each as vertices in increasing order, sorted: an inner edge stands
+    /// twice, a boundary edge once.
+    pub fn sides(&self) -> Vec<[u32; 2]> {
+        let mut sides: Vec<[u32; 2]> = self
+            .triangles
+            .iter()
+            .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
+            .map(|[u, v]| [u.min(v), u.max(v)])
+            .collect();
+        sides.sort_unstable();
+        sides
+    }
+
     /// Mean edge length over the triangles' sides (inner edges count twice), in units of L.
     pub fn mean_edge(&self) -> f64 {
         let total: f64 = (0..self.triangles.len() as u32)

@@ -42,13 +42,7 @@ impl Validation {
 
 /// Edges with one triangle, and with more than two.
 fn odd_edges(surface: &Surface) -> (usize, usize) {
-    let mut edges: Vec<[u32; 2]> = surface
-        .triangles
-        .iter()
-        .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
-        .map(|[u, v]| [u.min(v), u.max(v)])
-        .collect();
-    edges.sort_unstable();
+    let edges = surface.sides();
     let mut counts = (0, 0);
     for group in edges.chunk_by(|a, b| a == b) {
         match group.len() {

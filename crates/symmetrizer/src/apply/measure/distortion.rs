@@ -86,13 +86,7 @@ fn displacement(before: &Surface, positions: &[Point]) -> (f64, f64) {
 
 /// Every edge once, as vertices in increasing order.
 fn edges(surface: &Surface) -> Vec<[u32; 2]> {
-    let mut edges: Vec<[u32; 2]> = surface
-        .triangles
-        .iter()
-        .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
-        .map(|[u, v]| [u.min(v), u.max(v)])
-        .collect();
-    edges.sort_unstable();
+    let mut edges = surface.sides();
     edges.dedup();
     edges
 }
