@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use symmetrizer::picture::Canvas;
 use symmetrizer::report::to_json;
+use symmetrizer::shape::Document;
 use symmetrizer::shape::io::{Format, Output, encode};
-use symmetrizer::{Error, Mesh, Result};
+use symmetrizer::{Error, Result};
 
 /// How a picture is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,9 +31,9 @@ impl MeshFile {
         Ok(Self(Output::create(path)?, format))
     }
 
-    /// Writes the mesh; the file appears with [`commit`].
-    pub fn write(mut self, mesh: &Mesh) -> Result<Output> {
-        self.0.write(|w| encode(mesh, self.1, w))?;
+    /// Writes the shape; the file appears with [`commit`].
+    pub fn write(mut self, document: &Document) -> Result<Output> {
+        self.0.write(|w| encode(document, self.1, w))?;
         Ok(self.0)
     }
 }

@@ -3,8 +3,8 @@
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use symmetrizer::shape::io;
 use symmetrizer::shape::models::Creature;
+use symmetrizer::shape::{Document, io};
 use symmetrizer::{Context, Error, Mesh, Result};
 
 /// Help for inputs.
@@ -29,11 +29,11 @@ impl From<OsString> for Input {
 }
 
 impl Input {
-    /// Reads or generates the mesh, as the stage `read` of `ctx`.
-    pub fn read(&self, ctx: &mut Context<'_>) -> Result<Mesh> {
+    /// Reads or generates the shape, as the stage `read` of `ctx`.
+    pub fn read(&self, ctx: &mut Context<'_>) -> Result<Document> {
         ctx.stage("read", |_| match self {
             Self::File(path) => io::read(path),
-            Self::Model(name) => generate(name),
+            Self::Model(name) => generate(name).map(Document::from),
         })
     }
 

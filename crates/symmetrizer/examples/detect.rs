@@ -16,7 +16,7 @@ use symmetrizer::shape::surface::Working;
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args_os().nth(1).ok_or("usage: detect MESH")?;
     // The document: vertices and faces in the file's own order and units.
-    let mesh = io::read(path.as_ref())?;
+    let mesh = io::read(path.as_ref())?.mesh;
     // What the stages run on: triangles, centred, in fractions of the scale L.
     let working = Working::new(&mesh)?;
     let mut ctx = Context::new(7);

@@ -13,8 +13,8 @@ use crate::params::Params;
 use crate::patch::{Symmetry, carry_ids};
 use crate::report::faces::FaceSamples;
 use crate::report::{Head, InputReport, Report, ResultReport, symmetry};
-use crate::shape::Mesh;
 use crate::shape::surface::Working;
+use crate::shape::{Document, Mesh};
 use crate::transform::Plane;
 
 pub use measured::{Measured, measure_in};
@@ -138,6 +138,15 @@ impl Detected {
 }
 
 impl Symmetrized {
+    /// The `document` whose mesh went in, with everything it says, deformed as its mesh was.
+    pub fn document(&self, document: &Document) -> Document {
+        let after = self.after.as_ref();
+        after.map_or_else(
+            || document.clone(),
+            |after| document.deformed(&self.before.working, &after.working.surface.positions),
+        )
+    }
+
     /// The symmetries of the result, the highest first.
     pub fn symmetries(&self) -> &[Symmetry] {
         self.after.as_ref().map_or(&[], Detected::symmetries)

@@ -49,7 +49,7 @@ fn dirty_files_are_read_or_explained() {
     };
     for (name, expected) in DIRTY {
         match (io::read(&folder.join(name)), expected) {
-            (Ok(mesh), Ok(count)) => assert_eq!(mesh.polygons.len(), count, "{name}"),
+            (Ok(read), Ok(count)) => assert_eq!(read.mesh.polygons.len(), count, "{name}"),
             (Err(error), Err(part)) => {
                 let message = error.to_string();
                 assert!(
@@ -57,7 +57,7 @@ fn dirty_files_are_read_or_explained() {
                     "{message}"
                 );
             }
-            (got, _) => panic!("{name}: {:?}", got.map(|m| m.polygons.len())),
+            (got, _) => panic!("{name}: {:?}", got.map(|d| d.mesh.polygons.len())),
         }
     }
 }

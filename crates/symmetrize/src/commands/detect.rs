@@ -37,7 +37,7 @@ pub fn detect(args: &DetectArgs, desk: &Desk) -> Result<Answer> {
     let report_file = report.map(ReportFile::reserve).transpose()?;
     let picture_file = picture.map(PictureFile::reserve).transpose()?;
     let mut ctx = desk.context();
-    let mesh = args.input.read(&mut ctx)?;
+    let mesh = args.input.read(&mut ctx)?.mesh;
     let found = detect_in(&mesh, &params, &mut ctx)?;
     let mut complete = Vec::new();
     if let Some(file) = picture_file {

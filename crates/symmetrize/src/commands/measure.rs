@@ -36,11 +36,11 @@ pub fn measure(args: &MeasureArgs, desk: &Desk) -> Result<Answer> {
     }
     let file = path.map(ReportFile::reserve).transpose()?;
     let mut ctx = desk.context();
-    let mesh = args.input.read(&mut ctx)?;
+    let mesh = args.input.read(&mut ctx)?.mesh;
     let original = args
         .against
         .as_ref()
-        .map(|i| i.read(&mut ctx))
+        .map(|i| Ok(i.read(&mut ctx)?.mesh))
         .transpose()?;
     let measured = measure_in(&mesh, original.as_ref(), &mut ctx)?;
     let mut report = MeasureReport::new(&mesh, &measured, &ctx);

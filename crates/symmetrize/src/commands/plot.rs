@@ -34,7 +34,7 @@ pub fn plot(args: &PlotArgs, desk: &Desk) -> Result<Answer> {
     check_distinct(args.input.path(), &[], &[&args.output])?;
     let file = PictureFile::reserve(&args.output)?;
     let mut ctx = desk.context();
-    let mesh = args.input.read(&mut ctx)?;
+    let mesh = args.input.read(&mut ctx)?.mesh;
     let found = detect_in(&mesh, &params, &mut ctx)?;
     let title = format!(
         "{}: {} votes, {} symmetries",

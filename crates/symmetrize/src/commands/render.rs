@@ -44,7 +44,7 @@ pub fn render(args: &RenderArgs, desk: &Desk) -> Result<Answer> {
     check_distinct(args.input.path(), &[], &[&args.output])?;
     let file = PictureFile::reserve(&args.output)?;
     let mut ctx = desk.context();
-    let mesh = args.input.read(&mut ctx)?;
+    let mesh = args.input.read(&mut ctx)?.mesh;
     let measured = measure_in(&mesh, None, &mut ctx)?;
     let title = args.title.clone().unwrap_or_else(|| args.input.title());
     let shown = Shown {

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use symmetrizer::job::pictures;
-use symmetrizer::{Context, Mesh, Outcome, Params, Result, Symmetrized, symmetrize};
+use symmetrizer::shape::Document;
+use symmetrizer::{Context, Outcome, Params, Result, Symmetrized, symmetrize};
 
 use crate::Answer;
 use crate::files::{MeshFile, PictureFile, ReportFile, check_distinct, commit};
@@ -57,12 +58,12 @@ pub fn run(args: &RunArgs, desk: &Desk) -> Result<Answer> {
     let params = args.params()?;
     let files = Files::reserve(args)?;
     let mut ctx = desk.context();
-    let mesh = args.input.read(&mut ctx)?;
-    let mut job = symmetrize(&mesh, &params, &mut ctx)?;
+    let document = args.input.read(&mut ctx)?;
+    let mut job = symmetrize(&document.mesh, &params, &mut ctx)?;
     job.report.input.shape.file = Some(args.input.name());
     let found = job.outcome != Outcome::NoSymmetry;
     let shape = found || args.write_unchanged;
-    files.write(shape, &mesh, &mut job, args, (&mut ctx, desk))?;
+    files.write(shape, &document, &mut job, args, (&mut ctx, desk))?;
     desk.say(&summary::run(&job.report));
     desk.say(&args.written(shape));
     Ok(if found { Answer::Yes } else { Answer::No })
@@ -119,7 +120,7 @@ impl Files {
     fn write(
         self,
         shape: bool,
-        input: &Mesh,
+        input: &Document,
         job: &mut Symmetrized,
         args: &RunArgs,
         (ctx, desk): (&mut Context<'_>, &Desk),
@@ -127,7 +128,7 @@ impl Files {
         let mut complete = Vec::new();
         ctx.stage("write", |_| {
             if shape {
-                complete.push(self.output.write(&job.shape)?);
+                complete.push(self.output.write(&job.document(input))?);
             }
             if let Some(file) = self.input {
                 complete.push(file.write(input)?);

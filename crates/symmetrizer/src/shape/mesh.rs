@@ -76,7 +76,7 @@ impl Mesh {
     }
 
     /// Fails where the mesh cannot be worked on: empty, no faces, an index out of range, a face
-    /// with fewer than three corners, a coordinate that is not finite. Names the first such place.
+    /// with fewer than three corners. Names the first such place.
     pub fn check(&self) -> Result<()> {
         if self.positions.is_empty() {
             return Err(Error::input(
@@ -93,16 +93,12 @@ impl Mesh {
                 "a point cloud must be meshed first",
             ));
         }
-        if let Some(v) = self
-            .positions
-            .iter()
-            .position(|p| !p.iter().all(|c| c.is_finite()))
-        {
-            return Err(Error::input(
-                format!("vertex {v} (counted from 0) has a coordinate that is not a finite number"),
-                "remove or repair that vertex",
-            ));
-        }
+        self.check_corners()
+    }
+
+    /// Fails where a face has fewer than three corners or names a vertex that is not there. Names
+    /// the first such face.
+    pub fn check_corners(&self) -> Result<()> {
         let n = self.positions.len();
         for (f, polygon) in self.polygons.iter().enumerate() {
             if polygon.len() < 3 {
@@ -131,13 +127,16 @@ impl Mesh {
         })
     }
 
-    /// The bounding-box diagonal D of the vertices that faces use, model units; for reporting only,
+    /// The bounding-box diagonal D of the finite vertices that faces use, model units; for reporting only,
     /// because it changes when the shape is rotated.
     pub fn diagonal(&self) -> f64 {
         let mut low = Point::from([f64::INFINITY; 3]);
         let mut high = Point::from([f64::NEG_INFINITY; 3]);
-        for &v in self.polygons.iter().flatten() {
-            let p = &self.positions[v as usize];
+        let used = self.polygons.iter().flatten();
+        for p in used.map(|&v| &self.positions[v as usize]) {
+            if !is_finite(p) {
+                continue;
+            }
             low = low.inf(p);
             high = high.sup(p);
         }
@@ -147,4 +146,9 @@ impl Mesh {
             (high - low).norm()
         }
     }
+}
+
+/// Whether all three coordinates are finite.
+pub fn is_finite(p: &Point) -> bool {
+    p.iter().all(|c| c.is_finite())
 }

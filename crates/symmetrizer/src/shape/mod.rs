@@ -1,9 +1,10 @@
-//! Shapes: the document mesh with the file's own structure, the working surface the stages run
+//! Shapes: the document with the file's own structure, the working surface the stages run
 //! on, points on a surface, closest points, curvature, files, generated models.
 
 pub mod closest;
 pub mod crossings;
 pub mod curvature;
+pub mod document;
 pub mod io;
 pub mod mesh;
 pub mod models;
@@ -12,6 +13,7 @@ mod triangles_cross;
 pub mod validate;
 
 pub use closest::{ClosestPoint, Hit};
+pub use document::Document;
 pub use mesh::Mesh;
 pub use surface::{Surface, SurfacePoint};
 pub use validate::Validation;

@@ -203,8 +203,11 @@ impl Working {
         let mut moved = mesh.clone();
         for (p, &v) in moved.positions.iter_mut().zip(&self.vertex_of_document) {
             if let Some(v) = v {
-                let v = v as usize;
-                *p += (positions[v] - self.surface.positions[v]) * self.normalization.scale;
+                let moved = positions[v as usize] - self.surface.positions[v as usize];
+                // Adding zero would turn -0 into 0.
+                if moved != Vector::zeros() {
+                    *p += moved * self.normalization.scale;
+                }
             }
         }
         moved

@@ -28,7 +28,7 @@ fn skip(path: &Path) {
 
 /// The mesh in a file that is known to be readable.
 pub fn load(path: &Path) -> Mesh {
-    io::read(path).expect("a readable file")
+    io::read(path).expect("a readable file").mesh
 }
 
 /// The path of a model of the test data, if it is there.

@@ -1,39 +1,61 @@
-//! Mesh files: read, write, and the formats by extension.
+//! Shape files: read, write, and the formats by extension.
 //!
-//! Files carry geometry as they have it: vertex order, face order and n-gons are kept both ways.
+//! A file becomes a [`Document`]: vertex order, face order and n-gons as they are, and everything
+//! else the file says. What a format cannot hold is named by [`losses`], never dropped in silence.
 
+mod gltf;
+mod losses;
 mod obj;
 mod off;
 mod ply;
 mod ply_elements;
 mod stl;
 mod text;
+mod threemf;
 mod whole;
+mod xyz;
 
 use std::io::Write;
 use std::path::Path;
 
 use crate::error::{Error, Result};
-use crate::shape::mesh::Mesh;
+use crate::shape::document::Document;
 
 pub use whole::Output;
 
-/// A mesh file format.
+/// A shape file format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     /// Wavefront OBJ, text.
     Obj,
-    /// Stanford PLY: reads text and both binary forms, writes binary little endian.
+    /// Stanford PLY, text and both binary forms.
     Ply,
     /// Geomview OFF, text.
     Off,
-    /// STL: reads text and binary, writes binary; single precision, triangles only.
+    /// STL, text and binary; single precision, triangles only.
     Stl,
+    /// glTF, text with its buffers outside or inside; single precision, triangles only.
+    Gltf,
+    /// glTF, binary.
+    Glb,
+    /// 3MF, a packed XML document; triangles only.
+    ThreeMf,
+    /// XYZ, text: a point per line.
+    Xyz,
 }
 
 impl Format {
     /// Every format, in the order of the documentation.
-    pub const ALL: [Self; 4] = [Self::Obj, Self::Ply, Self::Off, Self::Stl];
+    pub const ALL: [Self; 8] = [
+        Self::Obj,
+        Self::Ply,
+        Self::Off,
+        Self::Stl,
+        Self::Gltf,
+        Self::Glb,
+        Self::ThreeMf,
+        Self::Xyz,
+    ];
 
     /// The extension of the format's files, lower case, without the dot.
     pub fn extension(self) -> &'static str {
@@ -42,6 +64,10 @@ impl Format {
             Self::Ply => "ply",
             Self::Off => "off",
             Self::Stl => "stl",
+            Self::Gltf => "gltf",
+            Self::Glb => "glb",
+            Self::ThreeMf => "3mf",
+            Self::Xyz => "xyz",
         }
     }
 
@@ -69,26 +95,30 @@ fn unknown_extension(path: &Path, extension: &str) -> Error {
     Error::Unsupported(format!("{}: {what}; use one of {known}", path.display()))
 }
 
-/// Reads the mesh file `path`, in the format that its extension names.
+/// Reads the shape file `path`, in the format that its extension names.
 ///
 /// # Errors
 /// [`Error::Io`] where the file cannot be read; [`Error::Unsupported`] for an unknown extension;
-/// [`Error::Input`] with the place in the file where its content is damaged, or where
-/// [`Mesh::check`] finds nothing to work on.
-pub fn read(path: &Path) -> Result<Mesh> {
+/// [`Error::Input`] with the place in the file where its content is damaged.
+pub fn read(path: &Path) -> Result<Document> {
+    let format = Format::of_path(path);
     if path.is_dir() {
         return Err(Error::input("this is a directory", "name a mesh file in it").in_file(path));
     }
-    let format = Format::of_path(path)?;
     let bytes = std::fs::read(path).map_err(|e| Error::io(path, e))?;
-    decode(bytes, format).map_err(|e| e.in_file(path))
+    decode_beside(bytes, format?, path.parent()).map_err(|e| e.in_file(path))
 }
 
-/// The mesh in the bytes of a file.
+/// The document in the bytes of a file that needs no other file.
 ///
 /// # Errors
 /// [`Error::Input`], as for [`read`] but without the file's name.
-pub fn decode(bytes: Vec<u8>, format: Format) -> Result<Mesh> {
+pub fn decode(bytes: Vec<u8>, format: Format) -> Result<Document> {
+    decode_beside(bytes, format, None)
+}
+
+/// The document in the bytes of a file; the files it names are looked for in `folder`.
+fn decode_beside(bytes: Vec<u8>, format: Format, folder: Option<&Path>) -> Result<Document> {
     if bytes.is_empty() {
         return Err(Error::input(
             "the file is empty",
@@ -102,40 +132,63 @@ pub fn decode(bytes: Vec<u8>, format: Format) -> Result<Mesh> {
             "simplify the mesh first",
         ));
     }
-    let mesh = match format {
-        Format::Obj => obj::decode(&bytes),
-        Format::Ply => ply::decode(&bytes),
-        Format::Off => off::decode(&bytes),
-        Format::Stl => stl::decode(bytes),
+    let document = match format {
+        Format::Obj => obj::decode(&bytes).map(Document::from),
+        Format::Ply => ply::decode(&bytes).map(Document::from),
+        Format::Off => off::decode(&bytes).map(Document::from),
+        Format::Stl => stl::decode(bytes).map(Document::from),
+        Format::Gltf | Format::Glb => gltf::decode(bytes, folder),
+        Format::ThreeMf => threemf::decode(bytes),
+        Format::Xyz => xyz::decode(&bytes),
     }?;
-    mesh.check()?;
-    Ok(mesh)
+    document.mesh.check_corners()?;
+    Ok(document)
 }
 
-/// Writes the mesh file `path`, in the format that its extension names; the file appears whole or
+/// Writes the shape file `path`, in the format that its extension names; the file appears whole or
 /// not at all.
 ///
 /// # Errors
 /// [`Error::Unsupported`] for an unknown extension; otherwise as for [`encode`] and [`Output`].
-pub fn write(mesh: &Mesh, path: &Path) -> Result<()> {
+pub fn write(document: &Document, path: &Path) -> Result<()> {
     let format = Format::of_path(path)?;
     let mut output = Output::create(path)?;
-    output.write(|w| encode(mesh, format, w))?;
+    output.write(|w| encode(document, format, w))?;
     output.commit()
 }
 
-/// Writes the bytes of a file in `format`. Text and PLY keep every coordinate to the last bit; STL
-/// rounds to single precision and cuts polygons into fans.
+/// Writes the bytes of a file in `format`. What the format cannot hold is left out; [`losses`] says
+/// what that is.
 ///
 /// # Errors
-/// [`Error::Input`] where [`Mesh::check`] fails or the format cannot hold the mesh;
-/// [`Error::Io`] without a path where `w` fails (add it with [`Error::in_file`]).
-pub fn encode(mesh: &Mesh, format: Format, w: &mut dyn Write) -> Result<()> {
-    mesh.check()?;
+/// [`Error::Input`] where [`crate::Mesh::check_corners`] fails or the format cannot hold the
+/// mesh; [`Error::Io`] without a path where `w` fails (add it with [`Error::in_file`]).
+pub fn encode(document: &Document, format: Format, w: &mut dyn Write) -> Result<()> {
+    document.mesh.check_corners()?;
     match format {
-        Format::Obj => obj::encode(mesh, w),
-        Format::Ply => ply::encode(mesh, w),
-        Format::Off => off::encode(mesh, w),
-        Format::Stl => stl::encode(mesh, w),
+        Format::Obj => obj::encode(&document.mesh, w),
+        Format::Ply => ply::encode(&document.mesh, w),
+        Format::Off => off::encode(&document.mesh, w),
+        Format::Stl => stl::encode(&document.mesh, w),
+        Format::Gltf => gltf::encode_text(document, w),
+        Format::Glb => gltf::encode_binary(document, w),
+        Format::ThreeMf => threemf::encode(document, w),
+        Format::Xyz => xyz::encode(document, w),
     }
+}
+
+/// What is lost when `document` is written in `format`, each in a phrase such as "12 animations";
+/// empty where the file says all that the document does.
+pub fn losses(document: &Document, format: Format) -> Vec<String> {
+    let mut lost = losses::of_kept(document, format);
+    lost.extend(match format {
+        Format::Obj => Vec::new(),
+        Format::Ply => Vec::new(),
+        Format::Off => Vec::new(),
+        Format::Stl => Vec::new(),
+        Format::Gltf | Format::Glb => gltf::losses(document),
+        Format::ThreeMf => threemf::losses(document),
+        Format::Xyz => xyz::losses(document),
+    });
+    lost
 }

@@ -52,7 +52,7 @@ impl<'a> Words<'a> {
             .unwrap_or(self.bytes.len() - self.at);
     }
 
-    /// The next word as a finite number; `part` says what it belongs to.
+    /// The next word as a number; `part` says what it belongs to.
     pub fn number(&mut self, part: Part) -> Result<f64> {
         let word = self.word_of(part)?;
         number(word, self.line)
@@ -111,15 +111,10 @@ pub(super) fn at_line(line: usize, what: impl std::fmt::Display, hint: &str) -> 
     Error::input(format!("line {line}: {what}"), hint)
 }
 
-/// A word as a finite number.
+/// A word as a number, which may be `nan` or `inf`: one broken vertex must not hide the rest.
 pub(super) fn number(word: &[u8], line: usize) -> Result<f64> {
     match str_of(word).and_then(|text| text.parse::<f64>().ok()) {
-        Some(value) if value.is_finite() => Ok(value),
-        Some(_) => Err(at_line(
-            line,
-            format!("the coordinate '{}' is not a finite number", shown(word)),
-            "remove or repair that vertex",
-        )),
+        Some(value) => Ok(value),
         None => Err(at_line(
             line,
             format!("'{}' is not a number", shown(word)),

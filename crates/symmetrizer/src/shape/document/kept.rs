@@ -1,0 +1,50 @@
+//! What a file holds that only its own format can hold again. Plain data: the format's reader
+//! makes it, its writer uses it.
+
+/// The rest of a file, by its format.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum Kept {
+    /// Nothing besides mesh and layers.
+    #[default]
+    Nothing,
+    /// Of an OBJ file.
+    Obj(ObjKept),
+    /// Of a PLY file.
+    Ply(PlyKept),
+    /// Of an STL file.
+    Stl(StlKept),
+    /// Of a glTF file.
+    Gltf(GltfKept),
+    /// Of a 3MF file.
+    ThreeMf(ThreeMfKept),
+}
+
+/// The rest of an OBJ file.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ObjKept {
+    /// What the `mtllib` lines name, in order.
+    pub libraries: Vec<String>,
+    /// Lines and points (`l`, `p`) as they stand in the file, vertices counted from 1.
+    pub elements: Vec<String>,
+}
+
+/// The rest of a PLY file.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PlyKept {}
+
+/// The rest of an STL file.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct StlKept {
+    /// Whether it is the text form.
+    pub text: bool,
+    /// The 80 bytes before the count of a binary file; empty for text.
+    pub header: Vec<u8>,
+}
+
+/// The rest of a glTF file.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct GltfKept {}
+
+/// The rest of a 3MF file.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ThreeMfKept {}

@@ -1,0 +1,84 @@
+//! What a format cannot hold, in phrases that complete "lost: ...".
+
+use super::Format;
+use crate::shape::document::{Document, Kept, Layer, MorphPart, On, Role};
+
+/// What `document` keeps for a format of its own that is not `format`.
+pub(super) fn of_kept(document: &Document, format: Format) -> Vec<String> {
+    match (&document.kept, format) {
+        (Kept::Nothing, _) => Vec::new(),
+        (Kept::Obj(_), Format::Obj) | (Kept::Ply(_), Format::Ply) => Vec::new(),
+        (Kept::Stl(_), _) => Vec::new(),
+        (Kept::Obj(kept), _) => {
+            let libraries = kept
+                .libraries
+                .iter()
+                .map(|l| format!("the material library {l}"));
+            let elements = counted(kept.elements.len(), "line or point element");
+            libraries.chain(elements).collect()
+        }
+        (Kept::Ply(_), _) => Vec::new(),
+        (Kept::Gltf(_), _) => Vec::new(),
+        (Kept::ThreeMf(_), _) => Vec::new(),
+    }
+}
+
+/// The layers that a format does not hold.
+pub(super) fn of_layers(document: &Document, holds: impl Fn(&Layer) -> bool) -> Vec<String> {
+    let lost = document.layers.iter().filter(|l| !holds(l));
+    lost.map(described).collect()
+}
+
+/// Polygons that a format for triangles cuts.
+pub(super) fn of_polygons(document: &Document) -> Vec<String> {
+    let polygons = document.mesh.polygons.iter();
+    let cut = polygons.filter(|p| p.len() > 3).count();
+    let phrase = |n: usize| format!("{n} faces of more than three corners, cut into triangles");
+    (cut > 0).then(|| phrase(cut)).into_iter().collect()
+}
+
+/// Coordinates that change in single precision.
+pub(super) fn of_precision(document: &Document) -> Vec<String> {
+    let coordinates = document.mesh.positions.iter().flat_map(|p| p.iter());
+    let change = coordinates.map(|&c| (f64::from(c as f32) - c).abs());
+    let most = change.filter(|c| c.is_finite()).fold(0.0, f64::max);
+    let phrase = |most: f64| format!("digits of the coordinates, which change by up to {most:.1e}");
+    (most > 0.0).then(|| phrase(most)).into_iter().collect()
+}
+
+/// "3 cameras", "1 camera", or nothing.
+pub(super) fn counted(count: usize, of: &str) -> Option<String> {
+    match count {
+        0 => None,
+        1 => Some(format!("1 {of}")),
+        n => Some(format!("{n} {of}s")),
+    }
+}
+
+/// What a layer is, such as "texture coordinates (per corner)".
+fn described(layer: &Layer) -> String {
+    let on = match layer.on {
+        On::Vertex => "vertex",
+        On::Corner => "corner",
+        On::Face => "face",
+    };
+    let what = match layer.role {
+        Role::Normal => "normals".into(),
+        Role::Tangent => "tangents".into(),
+        Role::TexCoord(0) => "texture coordinates".into(),
+        Role::TexCoord(n) => format!("texture coordinates of set {n}"),
+        Role::Color(0) => "colours".into(),
+        Role::Color(n) => format!("colours of set {n}"),
+        Role::Joints(_) => "skeleton joints".into(),
+        Role::Weights(_) => "skeleton weights".into(),
+        Role::Morph(k, MorphPart::Position) => format!("morph target {k}"),
+        Role::Morph(k, MorphPart::Normal) => format!("normals of morph target {k}"),
+        Role::Morph(k, MorphPart::Tangent) => format!("tangents of morph target {k}"),
+        Role::Material => "material names".into(),
+        Role::Group => "groups".into(),
+        Role::Object => "object names".into(),
+        Role::Smoothing => "smoothing groups".into(),
+        Role::Other => format!("the property '{}'", layer.name),
+    };
+    format!("{what} (per {on})")
+}

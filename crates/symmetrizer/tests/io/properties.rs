@@ -1,0 +1,49 @@
+//! Properties of every format.
+
+use proptest::prelude::*;
+use symmetrizer::shape::Mesh;
+use symmetrizer::shape::io::{self, Format};
+
+use crate::shared::*;
+
+fn any_mesh() -> impl Strategy<Value = Mesh> {
+    let coordinate = any::<f64>().prop_filter("finite", |c| c.is_finite());
+    let positions = prop::collection::vec(prop::array::uniform3(coordinate), 3..40);
+    positions.prop_flat_map(|positions| {
+        let corner = 0..positions.len() as u32;
+        let faces = prop::collection::vec(prop::collection::vec(corner, 3..7), 1..40);
+        faces.prop_map(move |faces| {
+            let faces: Vec<&[u32]> = faces.iter().map(Vec::as_slice).collect();
+            mesh(&positions, &faces)
+        })
+    })
+}
+
+/// Debug output tells -0 from 0.
+fn bits(mesh: &Mesh) -> String {
+    format!("{mesh:?}")
+}
+
+proptest! {
+    #[test]
+    fn any_mesh_round_trips(mesh in any_mesh()) {
+        for format in [Format::Obj, Format::Off, Format::Ply] {
+            let again = decoded(encoded(&mesh, format), format);
+            prop_assert_eq!(bits(&again), bits(&mesh));
+        }
+    }
+
+    #[test]
+    fn a_cut_or_changed_file_never_panics(
+        cut in 0.0..1.0_f64, place in 0.0..1.0_f64, byte in any::<u8>(),
+    ) {
+        for format in Format::ALL {
+            let mut bytes = encoded(&pyramid(), format);
+            let at = (place * bytes.len() as f64) as usize;
+            bytes[at] = byte;
+            let _ = io::decode(bytes.clone(), format);
+            bytes.truncate((cut * bytes.len() as f64) as usize);
+            let _ = io::decode(bytes, format);
+        }
+    }
+}
