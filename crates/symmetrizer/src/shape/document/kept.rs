@@ -22,10 +22,13 @@ pub enum Kept {
 /// The rest of an OBJ file.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ObjKept {
+    /// The comments at the head of the file.
+    pub comments: Vec<String>,
     /// What the `mtllib` lines name, in order.
     pub libraries: Vec<String>,
-    /// Lines and points (`l`, `p`) as they stand in the file, vertices counted from 1.
-    pub elements: Vec<String>,
+    /// Lines and points (`l`, `p`, indices from 1), and statements that are not known, as they stand
+    /// in the file.
+    pub statements: Vec<String>,
 }
 
 /// The rest of a PLY file.

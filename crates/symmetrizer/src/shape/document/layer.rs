@@ -124,6 +124,14 @@ impl Values {
         }
     }
 
+    /// Whether every element has a value.
+    pub fn is_complete(&self) -> bool {
+        match self {
+            Self::Pool { rows, .. } | Self::Names { of: rows, .. } => !rows.contains(&NO_ROW),
+            Self::Rows { .. } | Self::Lists { .. } => true,
+        }
+    }
+
     /// The numbers, except of names.
     pub fn numbers(&self) -> Option<&Numbers> {
         match self {

@@ -6,10 +6,12 @@
 mod follow;
 mod kept;
 mod layer;
+mod names;
 mod numbers;
 
 pub use kept::{GltfKept, Kept, ObjKept, PlyKept, StlKept, ThreeMfKept};
 pub use layer::{Layer, MorphPart, NO_ROW, On, Role, Values};
+pub use names::NameList;
 pub use numbers::{Kind, Numbers};
 
 use crate::shape::mesh::Mesh;

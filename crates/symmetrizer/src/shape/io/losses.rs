@@ -14,8 +14,8 @@ pub(super) fn of_kept(document: &Document, format: Format) -> Vec<String> {
                 .libraries
                 .iter()
                 .map(|l| format!("the material library {l}"));
-            let elements = counted(kept.elements.len(), "line or point element");
-            libraries.chain(elements).collect()
+            let statements = counted(kept.statements.len(), "line, point or other statement");
+            libraries.chain(statements).collect()
         }
         (Kept::Ply(_), _) => Vec::new(),
         (Kept::Gltf(_), _) => Vec::new(),
@@ -44,6 +44,15 @@ pub(super) fn of_precision(document: &Document) -> Vec<String> {
     let most = change.filter(|c| c.is_finite()).fold(0.0, f64::max);
     let phrase = |most: f64| format!("digits of the coordinates, which change by up to {most:.1e}");
     (most > 0.0).then(|| phrase(most)).into_iter().collect()
+}
+
+/// How many vertices no face uses.
+pub(super) fn loose_vertices(document: &Document) -> usize {
+    let mut loose = vec![true; document.mesh.positions.len()];
+    for &v in document.mesh.polygons.iter().flatten() {
+        loose[v as usize] = false;
+    }
+    loose.into_iter().filter(|l| *l).count()
 }
 
 /// "3 cameras", "1 camera", or nothing.

@@ -106,7 +106,7 @@ pub fn read(path: &Path) -> Result<Document> {
         return Err(Error::input("this is a directory", "name a mesh file in it").in_file(path));
     }
     let bytes = std::fs::read(path).map_err(|e| Error::io(path, e))?;
-    decode_beside(bytes, format?, path.parent()).map_err(|e| e.in_file(path))
+    decode_beside(bytes, format?, path.parent(), Strictness::Refuse).map_err(|e| e.in_file(path))
 }
 
 /// The document in the bytes of a file that needs no other file.
@@ -114,11 +114,32 @@ pub fn read(path: &Path) -> Result<Document> {
 /// # Errors
 /// [`Error::Input`], as for [`read`] but without the file's name.
 pub fn decode(bytes: Vec<u8>, format: Format) -> Result<Document> {
-    decode_beside(bytes, format, None)
+    decode_beside(bytes, format, None, Strictness::Refuse)
+}
+
+/// What reading does with faces that name vertices which are not there, or have fewer than three
+/// corners.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Strictness {
+    /// Fails, and names the first.
+    Refuse,
+    /// Keeps them.
+    Keep,
+}
+
+impl Strictness {
+    fn refuses(self) -> bool {
+        self == Self::Refuse
+    }
 }
 
 /// The document in the bytes of a file; the files it names are looked for in `folder`.
-fn decode_beside(bytes: Vec<u8>, format: Format, folder: Option<&Path>) -> Result<Document> {
+fn decode_beside(
+    bytes: Vec<u8>,
+    format: Format,
+    folder: Option<&Path>,
+    strictness: Strictness,
+) -> Result<Document> {
     if bytes.is_empty() {
         return Err(Error::input(
             "the file is empty",
@@ -133,15 +154,17 @@ fn decode_beside(bytes: Vec<u8>, format: Format, folder: Option<&Path>) -> Resul
         ));
     }
     let document = match format {
-        Format::Obj => obj::decode(&bytes).map(Document::from),
+        Format::Obj => obj::decode(&bytes, strictness),
         Format::Ply => ply::decode(&bytes).map(Document::from),
-        Format::Off => off::decode(&bytes).map(Document::from),
-        Format::Stl => stl::decode(bytes).map(Document::from),
+        Format::Off => off::decode(&bytes),
+        Format::Stl => stl::decode(&bytes),
         Format::Gltf | Format::Glb => gltf::decode(bytes, folder),
         Format::ThreeMf => threemf::decode(bytes),
         Format::Xyz => xyz::decode(&bytes),
     }?;
-    document.mesh.check_corners()?;
+    if strictness.refuses() {
+        document.mesh.check_corners()?;
+    }
     Ok(document)
 }
 
@@ -166,10 +189,10 @@ pub fn write(document: &Document, path: &Path) -> Result<()> {
 pub fn encode(document: &Document, format: Format, w: &mut dyn Write) -> Result<()> {
     document.mesh.check_corners()?;
     match format {
-        Format::Obj => obj::encode(&document.mesh, w),
+        Format::Obj => obj::encode(document, w),
         Format::Ply => ply::encode(&document.mesh, w),
-        Format::Off => off::encode(&document.mesh, w),
-        Format::Stl => stl::encode(&document.mesh, w),
+        Format::Off => off::encode(document, w),
+        Format::Stl => stl::encode(document, w),
         Format::Gltf => gltf::encode_text(document, w),
         Format::Glb => gltf::encode_binary(document, w),
         Format::ThreeMf => threemf::encode(document, w),
@@ -182,10 +205,10 @@ pub fn encode(document: &Document, format: Format, w: &mut dyn Write) -> Result<
 pub fn losses(document: &Document, format: Format) -> Vec<String> {
     let mut lost = losses::of_kept(document, format);
     lost.extend(match format {
-        Format::Obj => Vec::new(),
+        Format::Obj => obj::losses(document),
         Format::Ply => Vec::new(),
-        Format::Off => Vec::new(),
-        Format::Stl => Vec::new(),
+        Format::Off => off::losses(document),
+        Format::Stl => stl::losses(document),
         Format::Gltf | Format::Glb => gltf::losses(document),
         Format::ThreeMf => threemf::losses(document),
         Format::Xyz => xyz::losses(document),

@@ -1,5 +1,7 @@
 //! Reading text files: words and numbers with the line they stand on.
 
+use std::borrow::Cow;
+
 use crate::error::{Error, Result};
 
 /// The words of a text, separated by white space; counts lines as it goes.
@@ -42,6 +44,13 @@ impl<'a> Words<'a> {
     /// Puts back the last `count` bytes of the word just read.
     pub fn put_back(&mut self, count: usize) {
         self.at -= count;
+    }
+
+    /// The bytes left on the line of the last word.
+    pub fn rest_of_line(&mut self) -> &'a [u8] {
+        let start = self.at;
+        self.skip_line();
+        &self.bytes[start..self.at]
     }
 
     /// Drops the words left on the line of the last word.
@@ -129,19 +138,30 @@ pub(super) fn shown(word: &[u8]) -> String {
     text.escape_debug().to_string()
 }
 
-/// The text without a byte-order mark.
+/// The text without a byte-order mark, as UTF-8 where the mark says UTF-16.
 ///
 /// # Errors
-/// [`Error::Input`] for UTF-16 or 32, which no mesh format uses.
-pub(super) fn plain(bytes: &[u8]) -> Result<&[u8]> {
-    let wide = bytes.starts_with(&[0xfe, 0xff]) || bytes.starts_with(&[0xff, 0xfe]);
-    if wide || bytes[..bytes.len().min(64)].contains(&0) {
+/// [`Error::Input`] for binary data.
+pub(super) fn plain(bytes: &[u8]) -> Result<Cow<'_, [u8]>> {
+    let wide = |read: fn([u8; 2]) -> u16| {
+        let units = bytes[2..].chunks_exact(2).map(|c| read([c[0], c[1]]));
+        let text = char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER));
+        Cow::Owned(text.collect::<String>().into_bytes())
+    };
+    match bytes {
+        [0xfe, 0xff, ..] => return Ok(wide(u16::from_be_bytes)),
+        [0xff, 0xfe, ..] => return Ok(wide(u16::from_le_bytes)),
+        _ => {}
+    }
+    if bytes[..bytes.len().min(64)].contains(&0) {
         return Err(Error::input(
-            "byte 0: the file is not plain text (UTF-16, or binary data)",
-            "save it as ASCII or UTF-8, or give it the extension of its real format",
+            "byte 0: the file is not plain text",
+            "give it the extension of its real format, or save it as ASCII or UTF-8",
         ));
     }
-    Ok(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes))
+    Ok(Cow::Borrowed(
+        bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes),
+    ))
 }
 
 pub(super) fn str_of(word: &[u8]) -> Option<&str> {

@@ -1,45 +1,81 @@
-//! Geomview OFF, text: `OFF`, the counts, the vertices, the faces; comments from `#`.
+//! Geomview OFF, text: `OFF`, the counts, the vertices, the faces; comments from `#`. A prefix says
+//! what follows each position: `N` a normal, `C` a colour, `ST` texture coordinates.
 
-use std::io::{BufWriter, Write};
+mod rows;
+mod write;
 
+use self::rows::{Colors, Columns};
 use super::text::{Part, Words, at_line, plain, shown, str_of};
 use crate::error::{Error, Result};
 use crate::geom::Point;
+use crate::shape::document::{Document, On};
 use crate::shape::mesh::{Mesh, Polygons};
 
-/// The mesh in the text of an OFF file.
-pub(super) fn decode(bytes: &[u8]) -> Result<Mesh> {
-    let mut words = Words::new(plain(bytes)?, 1, Some(b'#'));
-    let attributes = keyword(&mut words)?;
-    let vertices = count(&mut words, "vertices", bytes.len() / 5)?;
-    let line = words.line();
-    let faces = count(&mut words, "faces", bytes.len() / 3)?;
-    let one_line = words.line() == line;
-    edge_count(&mut words, one_line);
-    let mesh = Mesh {
-        positions: positions(&mut words, vertices, attributes)?,
-        polygons: polygons(&mut words, faces)?,
-    };
-    nothing_left(&mut words, faces)?;
-    Ok(mesh)
+pub(super) use write::{encode, losses};
+
+/// What follows a vertex's position, in this order.
+#[derive(Debug, Clone, Copy, Default)]
+struct Prefix {
+    normal: bool,
+    color: bool,
+    texture: bool,
 }
 
-/// Whether vertices carry values beyond their position, from the keyword: `COFF`, `NOFF`, `STOFF`.
-/// The keyword is optional, and the counts may follow it without a space.
-fn keyword(words: &mut Words<'_>) -> Result<bool> {
+impl Prefix {
+    fn any(self) -> bool {
+        self.normal || self.color || self.texture
+    }
+}
+
+/// The document in the text of an OFF file.
+pub(super) fn decode(bytes: &[u8]) -> Result<Document> {
+    let text = plain(bytes)?;
+    let mut words = Words::new(&text, 1, Some(b'#'));
+    let prefix = keyword(&mut words)?;
+    let vertices = count(&mut words, "vertices", text.len() / 5)?;
+    let line = words.line();
+    let faces = count(&mut words, "faces", text.len() / 3)?;
+    let one_line = words.line() == line;
+    edge_count(&mut words, one_line);
+    let mut columns = Columns::new(prefix);
+    let positions = positions(&mut words, vertices, &mut columns)?;
+    let mut colors = Colors::default();
+    let polygons = polygons(&mut words, faces, &mut colors)?;
+    nothing_left(&mut words, faces)?;
+    let mut layers = columns.finish();
+    layers.extend(colors.layer(On::Face));
+    Ok(Document {
+        mesh: Mesh {
+            positions,
+            polygons,
+        },
+        layers,
+        ..Document::default()
+    })
+}
+
+/// What vertices carry beyond their position, from the keyword: `COFF`, `NOFF`, `STOFF`. The
+/// keyword is optional, and the counts may follow it without a space.
+fn keyword(words: &mut Words<'_>) -> Result<Prefix> {
     let word = words.word_of(Part("the header: line", 0))?;
     let Some(at) = word.windows(3).position(|w| w == b"OFF") else {
         return no_keyword(words, word);
     };
     let (prefix, suffix) = (&word[..at], &word[at + 3..]);
     words.put_back(suffix.len());
-    if !prefix.iter().all(|b| b"STCN".contains(b)) {
+    let texture = prefix.starts_with(b"ST");
+    let rest = prefix.strip_prefix(b"ST").unwrap_or(prefix);
+    if !rest.iter().all(|b| b"CN".contains(b)) {
         return Err(unsupported(word));
     }
-    Ok(!prefix.is_empty())
+    Ok(Prefix {
+        normal: rest.contains(&b'N'),
+        color: rest.contains(&b'C'),
+        texture,
+    })
 }
 
-fn no_keyword(words: &mut Words<'_>, word: &[u8]) -> Result<bool> {
+fn no_keyword(words: &mut Words<'_>, word: &[u8]) -> Result<Prefix> {
     if !word.iter().all(u8::is_ascii_digit) {
         return Err(at_line(
             words.line(),
@@ -48,7 +84,7 @@ fn no_keyword(words: &mut Words<'_>, word: &[u8]) -> Result<bool> {
         ));
     }
     words.put_back(word.len());
-    Ok(false)
+    Ok(Prefix::default())
 }
 
 fn unsupported(word: &[u8]) -> Error {
@@ -92,7 +128,7 @@ fn edge_count(words: &mut Words<'_>, one_line: bool) {
     }
 }
 
-fn positions(words: &mut Words<'_>, count: usize, attributes: bool) -> Result<Vec<Point>> {
+fn positions(words: &mut Words<'_>, count: usize, columns: &mut Columns) -> Result<Vec<Point>> {
     let mut positions = Vec::with_capacity(count);
     for v in 0..count {
         let part = Part("vertex", v);
@@ -102,14 +138,14 @@ fn positions(words: &mut Words<'_>, count: usize, attributes: bool) -> Result<Ve
             words.number(part)?,
         ];
         positions.push(Point::new(x, y, z));
-        if attributes {
-            words.skip_line();
+        if columns.prefix.any() {
+            columns.read(words.rest_of_line(), words.line(), v)?;
         }
     }
     Ok(positions)
 }
 
-fn polygons(words: &mut Words<'_>, count: usize) -> Result<Polygons> {
+fn polygons(words: &mut Words<'_>, count: usize, colors: &mut Colors) -> Result<Polygons> {
     let mut polygons = Polygons::default();
     let mut corners = Vec::new();
     for f in 0..count {
@@ -119,8 +155,7 @@ fn polygons(words: &mut Words<'_>, count: usize) -> Result<Polygons> {
             corners.push(words.index(part)?);
         }
         polygons.push(&corners);
-        // A colour may follow.
-        words.skip_line();
+        colors.read(words.rest_of_line(), words.line())?;
     }
     Ok(polygons)
 }
@@ -138,25 +173,4 @@ fn nothing_left(words: &mut Words<'_>, faces: usize) -> Result<()> {
             "correct the counts: vertices, faces, edges",
         )),
     }
-}
-
-/// Writes an OFF file; coordinates in the shortest form that reads back to the same bits.
-pub(super) fn encode(mesh: &Mesh, w: &mut dyn Write) -> Result<()> {
-    let text = || -> std::io::Result<()> {
-        let mut w = BufWriter::new(w);
-        let (vertices, faces) = (mesh.positions.len(), mesh.polygons.len());
-        writeln!(w, "OFF\n{vertices} {faces} 0")?;
-        for p in &mesh.positions {
-            writeln!(w, "{} {} {}", p.x, p.y, p.z)?;
-        }
-        for polygon in mesh.polygons.iter() {
-            write!(w, "{}", polygon.len())?;
-            for v in polygon {
-                write!(w, " {v}")?;
-            }
-            writeln!(w)?;
-        }
-        w.flush()
-    };
-    text().map_err(|e| Error::io("", e))
 }
