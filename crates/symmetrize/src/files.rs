@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use symmetrizer::picture::Canvas;
 use symmetrizer::report::to_json;
 use symmetrizer::shape::Document;
-use symmetrizer::shape::io::{Format, Output, encode};
+use symmetrizer::shape::io::{Format, Output, companions, encode, losses};
 use symmetrizer::{Error, Result};
 
 /// How a picture is written.
@@ -29,6 +29,20 @@ impl MeshFile {
     pub fn reserve(path: &Path) -> Result<Self> {
         let format = Format::of_path(path)?;
         Ok(Self(Output::create(path)?, format))
+    }
+
+    /// What of `document` the file does not hold, and which files it needs beside it.
+    pub fn warnings(&self, document: &Document) -> Vec<String> {
+        let file = self.0.target();
+        let name = file.file_name().unwrap_or(file.as_os_str());
+        let name = name.to_string_lossy();
+        let lost = losses(document, self.1).into_iter();
+        let lost = lost.map(|lost| format!("{name} does not hold {lost}"));
+        let folder = file.parent().unwrap_or(Path::new("."));
+        let needed = companions(document, self.1).into_iter();
+        let missing = needed.filter(|needed| !folder.join(needed).exists());
+        let missing = missing.map(|m| format!("{name} names the file {m}: copy it beside it"));
+        lost.chain(missing).collect()
     }
 
     /// Writes the shape; the file appears with [`commit`].

@@ -32,6 +32,7 @@ enum Verb {
     Plot(commands::plot::PlotArgs),
     Measure(commands::measure::MeasureArgs),
     Render(commands::render::RenderArgs),
+    Convert(commands::convert::ConvertArgs),
     Params(commands::params::ParamsArgs),
 }
 
@@ -67,6 +68,7 @@ fn answer(cli: &Cli) -> Result<Answer> {
         Verb::Plot(args) => commands::plot::plot(args, &desk),
         Verb::Measure(args) => commands::measure::measure(args, &desk),
         Verb::Render(args) => commands::render::render(args, &desk),
+        Verb::Convert(args) => commands::convert::convert(args, &desk),
         Verb::Params(args) => commands::params::params(args),
     }
 }

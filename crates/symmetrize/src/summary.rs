@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use symmetrizer::Outcome;
+use symmetrizer::{Outcome, Warning};
 use symmetrizer::apply::measure::{AsymmetryReport, Distortion, PlaneReport};
 use symmetrizer::optimize::Step;
 use symmetrizer::report::{InputReport, RefusalReport, Report, ShapeReport, SymmetryReport};
@@ -36,7 +36,7 @@ pub fn run(report: &Report) -> String {
     let mut text = shape(&report.input.shape);
     text += "\n";
     let Some(result) = &report.result else {
-        return text + &symmetries(&report.input, true);
+        return text + &symmetries(&report.input, true) + &warnings(&report.warnings);
     };
     text += &symmetries(&report.input, false);
     text += "\n";
@@ -52,7 +52,13 @@ pub fn run(report: &Report) -> String {
     text += &distortion(&result.distortion);
     let _ = writeln!(text, "energy       {:.2e}", result.energy);
     let _ = writeln!(text, "outcome      {}", outcome(report.outcome));
-    text
+    text + &warnings(&report.warnings)
+}
+
+/// A line for each warning.
+pub fn warnings(warnings: &[Warning]) -> String {
+    let lines = warnings.iter().map(|w| format!("warning      {}\n", w.0));
+    lines.collect()
 }
 
 /// Asymmetry of one or more states, a row for each.

@@ -26,7 +26,7 @@ use symmetrizer::optimize::schedule::{Settings, optimize};
 use symmetrizer::pair::mirror_pairs;
 use symmetrizer::patch::grow::{Ground, grow_patch};
 use symmetrizer::sample::sample;
-use symmetrizer::shape::surface::Working;
+use symmetrizer::shape::working::Working;
 use symmetrizer::shape::{ClosestPoint, Surface, io};
 use symmetrizer::{CancelToken, Context, Event};
 

@@ -11,7 +11,7 @@ use symmetrizer::Context;
 use symmetrizer::apply::measure::PlaneReport;
 use symmetrizer::detect::{DetectParams, detect};
 use symmetrizer::shape::io;
-use symmetrizer::shape::surface::Working;
+use symmetrizer::shape::working::Working;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args_os().nth(1).ok_or("usage: detect MESH")?;

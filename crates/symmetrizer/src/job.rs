@@ -13,7 +13,7 @@ use crate::params::Params;
 use crate::patch::{Symmetry, carry_ids};
 use crate::report::faces::FaceSamples;
 use crate::report::{Head, InputReport, Report, ResultReport, symmetry};
-use crate::shape::surface::Working;
+use crate::shape::working::{Mended, Working};
 use crate::shape::{Document, Mesh};
 use crate::transform::Plane;
 
@@ -55,6 +55,7 @@ pub struct Symmetrized {
 pub fn detect_in(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result<Detected> {
     params.check()?;
     let working = Working::new(mesh)?;
+    warn_of(&working.mended, ctx);
     ctx.stage("detect", |ctx| {
         Detected::find(working, mesh.diagonal(), params, ctx)
     })
@@ -76,7 +77,12 @@ pub fn symmetrize(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result
         deform: &params.deform,
         optimize: &params.optimize,
     };
-    let done = optimize(&before.working.surface, &before.detection, settings, ctx)?;
+    let surface = &before.working.surface;
+    let exact = measured.max <= EXACT && !before.symmetries().is_empty();
+    let done = match exact {
+        true => Optimized::unmoved(surface, &before.detection, Outcome::Converged),
+        false => optimize(surface, &before.detection, settings, ctx)?,
+    };
     let faces = FaceSamples::of(&before);
     let asymmetry = AsymmetryReport::new(&measured, &before.working.normalization);
     let report = Report {
@@ -102,6 +108,33 @@ pub fn symmetrize(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result
     job.report.warnings = ctx.warnings().to_vec();
     Ok(job)
 }
+
+/// Says what the stages do not see as the document has it.
+fn warn_of(mended: &Mended, ctx: &mut Context<'_>) {
+    let kinds = [
+        (
+            mended.unplaced,
+            "left out: they have corners without a finite position",
+        ),
+        (
+            mended.duplicate,
+            "left out: an earlier one has the same corners",
+        ),
+        (
+            mended.turned,
+            "turned to run the same way round as their neighbours",
+        ),
+    ];
+    for (count, what) in kinds.into_iter().filter(|(count, _)| *count > 0) {
+        ctx.warn(format!(
+            "for the work {count} faces are {what}; the file's own stay as they are"
+        ));
+    }
+}
+
+/// A shape whose mirrored surface lies nowhere further than this from it, % of D, is symmetric to the
+/// rounding of single-precision coordinates: not a bit of it is changed.
+const EXACT: f64 = 2e-5;
 
 /// Mean asymmetry, % of D, that may come and go with the triangulation.
 const WORSE: f64 = 0.01;

@@ -17,7 +17,7 @@ use crate::job::{Detected, Measured};
 use crate::optimize::{Outcome, Step};
 use crate::params::Params;
 use crate::report::faces::FaceSamples;
-use crate::shape::surface::Working;
+use crate::shape::working::Working;
 use crate::shape::{Mesh, Validation};
 
 pub use symmetry::{RefusalReport, SymmetryReport};

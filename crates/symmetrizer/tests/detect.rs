@@ -9,7 +9,7 @@ use symmetrizer::Context;
 use symmetrizer::detect::{DetectParams, Detection, detect};
 use symmetrizer::geom::{Point, Vector, exp_rotation};
 use symmetrizer::shape::Mesh;
-use symmetrizer::shape::surface::Working;
+use symmetrizer::shape::working::Working;
 use symmetrizer::transform::Plane;
 
 /// A mirror that a part of the shape was built with, in the coordinates of its mesh.

@@ -10,7 +10,7 @@ use symmetrizer::detect::{DetectParams, Detection, detect};
 use symmetrizer::optimize::glide::{Glided, glide};
 use symmetrizer::optimize::moving::Couple;
 use symmetrizer::patch::grow::Ground;
-use symmetrizer::shape::surface::Working;
+use symmetrizer::shape::working::Working;
 use symmetrizer::shape::{ClosestPoint, Surface};
 
 /// The pairs that voted for the highest mode, as sampled: nothing has matched them to the surface.

@@ -7,7 +7,7 @@ use symmetrizer::Context;
 use symmetrizer::apply::measure::{AsymmetryReport, Measure, asymmetry, per_vertex};
 use symmetrizer::geom::{Point, Vector};
 use symmetrizer::shape::Mesh;
-use symmetrizer::shape::surface::Working;
+use symmetrizer::shape::working::Working;
 use symmetrizer::transform::isometry::Plane;
 
 fn measured(mesh: &Mesh) -> AsymmetryReport {

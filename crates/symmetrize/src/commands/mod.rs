@@ -1,5 +1,6 @@
 //! The verbs: arguments and course of each.
 
+pub mod convert;
 pub mod detect;
 pub mod measure;
 pub mod params;

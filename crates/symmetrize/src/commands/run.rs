@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use symmetrizer::job::pictures;
 use symmetrizer::shape::Document;
-use symmetrizer::{Context, Outcome, Params, Result, Symmetrized, symmetrize};
+use symmetrizer::{Context, Outcome, Params, Result, Symmetrized, Warning, symmetrize};
 
 use crate::Answer;
 use crate::files::{MeshFile, PictureFile, ReportFile, check_distinct, commit};
@@ -22,7 +22,7 @@ use crate::summary;
 pub struct RunArgs {
     #[arg(help = input::HELP)]
     input: Input,
-    /// Write the symmetric shape here; the extension says how (obj, ply, off, stl)
+    /// Write the symmetric shape here; the extension says how (obj, ply, off, stl, gltf, glb, 3mf)
     #[arg(long, short, value_name = "FILE")]
     output: PathBuf,
     /// Write everything in figures here, as JSON
@@ -128,7 +128,10 @@ impl Files {
         let mut complete = Vec::new();
         ctx.stage("write", |_| {
             if shape {
-                complete.push(self.output.write(&job.document(input))?);
+                let result = job.document(input);
+                let warnings = self.output.warnings(&result).into_iter();
+                job.report.warnings.extend(warnings.map(Warning));
+                complete.push(self.output.write(&result)?);
             }
             if let Some(file) = self.input {
                 complete.push(file.write(input)?);

@@ -5,7 +5,7 @@ use crate::context::Context;
 use crate::error::{Error, Result};
 use crate::geom::Point;
 use crate::shape::Mesh;
-use crate::shape::surface::Working;
+use crate::shape::working::Working;
 
 /// A shape and its figures.
 pub struct Measured {

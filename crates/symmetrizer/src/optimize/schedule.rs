@@ -104,6 +104,26 @@ pub struct Optimized {
     pub next_id: u32,
 }
 
+impl Optimized {
+    /// What becomes of a surface on which nothing is to be done.
+    pub fn unmoved(surface: &Surface, detection: &Detection, outcome: Outcome) -> Self {
+        Self {
+            positions: surface.positions.clone(),
+            plane: detection.symmetries.first().map(|s| s.plane),
+            outcome,
+            steps: Vec::new(),
+            energy: 0.0,
+            next_id: next_id(detection),
+        }
+    }
+}
+
+/// The first id that no symmetry of a detection has.
+fn next_id(detection: &Detection) -> u32 {
+    let ids = detection.symmetries.iter().map(|s| s.id + 1);
+    ids.max().unwrap_or(0)
+}
+
 /// Parameters of [`optimize`].
 #[derive(Debug, Clone, Copy)]
 pub struct Settings<'a> {
@@ -136,14 +156,7 @@ pub fn optimize(
 ) -> Result<Optimized> {
     settings.optimize.check()?;
     if detection.symmetries.is_empty() {
-        return Ok(Optimized {
-            positions: surface.positions.clone(),
-            plane: None,
-            outcome: Outcome::NoSymmetry,
-            steps: Vec::new(),
-            energy: 0.0,
-            next_id: 0,
-        });
+        return Ok(Optimized::unmoved(surface, detection, Outcome::NoSymmetry));
     }
     let mut deformer = ctx.stage("prepare", |_| Primo::new(surface, settings.deform))?;
     let moving = Moving {
@@ -163,12 +176,7 @@ pub fn optimize(
         steps: Vec::new(),
         outcome: Outcome::Converged,
         failed: Vec::new(),
-        next_id: detection
-            .symmetries
-            .iter()
-            .map(|s| s.id + 1)
-            .max()
-            .unwrap_or(0),
+        next_id: next_id(detection),
     }
     .run(ctx)
 }

@@ -8,7 +8,7 @@ use crate::job::Detected;
 use crate::patch::{Refusal, Symmetry};
 use crate::report::faces::FaceSamples;
 use crate::shape::SurfacePoint;
-use crate::shape::surface::{Normalization, Working};
+use crate::shape::working::{Normalization, Working};
 use crate::transform::{Isometry, Plane};
 
 /// A symmetry in document coordinates.

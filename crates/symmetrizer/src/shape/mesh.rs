@@ -2,6 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::geom::Point;
+use crate::shape::triangulate::triangulate;
 
 /// Polygons as one list of corners, `starts[f]..starts[f + 1]` for polygon f.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -119,12 +120,29 @@ impl Mesh {
         Ok(())
     }
 
-    /// Triangles by fan triangulation of the polygons, each with the index of its polygon.
+    /// The triangles of all polygons, each with the index of its polygon: n - 2 for n corners (see
+    /// [`triangulate()`]).
     pub fn triangles(&self) -> impl Iterator<Item = ([u32; 3], u32)> {
-        self.polygons.iter().enumerate().flat_map(|(f, polygon)| {
-            (1..polygon.len().saturating_sub(1))
-                .map(move |k| ([polygon[0], polygon[k], polygon[k + 1]], f as u32))
+        (0..).zip(self.polygons.iter()).flat_map(|(f, polygon)| {
+            let (first, rest) = match *polygon {
+                [a, b, c] => (Some([a, b, c]), Vec::new()),
+                _ => (None, self.cut(polygon)),
+            };
+            first.into_iter().chain(rest).map(move |t| (t, f))
         })
+    }
+
+    fn cut(&self, polygon: &[u32]) -> Vec<[u32; 3]> {
+        let corners: Vec<Point> = polygon
+            .iter()
+            .map(|&v| self.positions[v as usize])
+            .collect();
+        let mut triangles = triangulate(&corners);
+        triangles
+            .iter_mut()
+            .flatten()
+            .for_each(|k| *k = polygon[*k as usize]);
+        triangles
     }
 
     /// The bounding-box diagonal D of the finite vertices that faces use, model units; for reporting only,

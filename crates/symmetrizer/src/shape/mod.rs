@@ -10,10 +10,13 @@ pub mod mesh;
 pub mod models;
 pub mod surface;
 mod triangles_cross;
+pub mod triangulate;
 pub mod validate;
+pub mod working;
 
 pub use closest::{ClosestPoint, Hit};
 pub use document::Document;
 pub use mesh::Mesh;
 pub use surface::{Surface, SurfacePoint};
 pub use validate::Validation;
+pub use working::Working;

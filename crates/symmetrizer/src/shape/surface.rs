@@ -1,14 +1,8 @@
-//! The working surface: triangles in normalised coordinates, with the map back to the document.
-//!
-//! Every stage runs here. The area centroid is the origin and the rotation-invariant scale
-//! L = 4 x area-weighted rms radius is 1, so that all lengths inside are fractions of L and nothing
-//! depends on the units, the place or the bounding box of the file.
+//! Triangle surfaces and the points on them.
 
 use std::sync::Arc;
 
-use crate::error::{Error, Result};
 use crate::geom::{Point, Vector};
-use crate::shape::mesh::Mesh;
 
 /// A point on a surface: a triangle and barycentric coordinates (sum 1) of its three corners.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -17,27 +11,6 @@ pub struct SurfacePoint {
     pub face: u32,
     /// Weights of the triangle's corners.
     pub bary: [f64; 3],
-}
-
-/// The similarity between document coordinates and working coordinates.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Normalization {
-    /// Area centroid in document coordinates.
-    pub center: Point,
-    /// The scale L in document units.
-    pub scale: f64,
-}
-
-impl Normalization {
-    /// Document -> working coordinates.
-    pub fn to_working(&self, p: &Point) -> Point {
-        Point::from((p - self.center) / self.scale)
-    }
-
-    /// Working -> document coordinates.
-    pub fn to_document(&self, p: &Point) -> Point {
-        self.center + p.coords * self.scale
-    }
 }
 
 /// A triangle surface with its areas and normals; deformed copies share the triangles.
@@ -149,152 +122,6 @@ impl Surface {
             .sum();
         total / (3 * self.triangles.len()).max(1) as f64
     }
-}
-
-/// A surface to work on and its relation to the document it came from.
-#[derive(Debug, Clone)]
-pub struct Working {
-    /// The rest surface: vertices in equal places welded, unused ones and degenerate faces left out.
-    pub surface: Surface,
-    /// The similarity to document coordinates.
-    pub normalization: Normalization,
-    /// The working vertex of each document vertex; `None` for vertices that no face uses.
-    pub vertex_of_document: Vec<Option<u32>>,
-    /// The document's polygon of each working triangle.
-    pub polygon_of_face: Vec<u32>,
-    /// The index, after fan triangulation of the document, of each working triangle.
-    pub document_face: Vec<u32>,
-}
-
-impl Working {
-    /// The working surface of a document mesh.
-    ///
-    /// # Errors
-    /// [`Error::Input`] where [`Mesh::check`] fails or the surface has no area.
-    pub fn new(mesh: &Mesh) -> Result<Self> {
-        mesh.check()?;
-        let (vertex_of_document, welded) = weld(mesh);
-        let mut triangles = Vec::new();
-        let mut polygon_of_face = Vec::new();
-        let mut document_face = Vec::new();
-        for (index, (corners, polygon)) in mesh.triangles().enumerate() {
-            let [a, b, c] =
-                corners.map(|v| vertex_of_document[v as usize].expect("used vertices are kept"));
-            if a != b && b != c && c != a {
-                triangles.push([a, b, c]);
-                polygon_of_face.push(polygon);
-                document_face.push(index as u32);
-            }
-        }
-        let normalization = normalize(&welded, &triangles)?;
-        let positions = welded.iter().map(|p| normalization.to_working(p)).collect();
-        Ok(Self {
-            surface: Surface::new(positions, triangles.into()),
-            normalization,
-            vertex_of_document,
-            polygon_of_face,
-            document_face,
-        })
-    }
-
-    /// The document with its vertices moved as the working vertices were; a vertex that did not
-    /// move, or that no face uses, keeps its coordinates to the last bit.
-    pub fn moved_document(&self, mesh: &Mesh, positions: &[Point]) -> Mesh {
-        let mut moved = mesh.clone();
-        for (p, &v) in moved.positions.iter_mut().zip(&self.vertex_of_document) {
-            if let Some(v) = v {
-                let moved = positions[v as usize] - self.surface.positions[v as usize];
-                // Adding zero would turn -0 into 0.
-                if moved != Vector::zeros() {
-                    *p += moved * self.normalization.scale;
-                }
-            }
-        }
-        moved
-    }
-}
-
-/// Merges used vertices whose coordinates are equal; numbers them in file order.
-fn weld(mesh: &Mesh) -> (Vec<Option<u32>>, Vec<Point>) {
-    let mut used = vec![false; mesh.positions.len()];
-    for &v in mesh.polygons.iter().flatten() {
-        used[v as usize] = true;
-    }
-    let mut order: Vec<u32> = (0..mesh.positions.len() as u32)
-        .filter(|&v| used[v as usize])
-        .collect();
-    // Adding 0.0 makes -0.0 and 0.0 one place.
-    let key = |v: u32| mesh.positions[v as usize].coords.map(|c| c + 0.0);
-    let compare = |a: &u32, b: &u32| {
-        let (p, q) = (key(*a), key(*b));
-        (p.x.total_cmp(&q.x))
-            .then(p.y.total_cmp(&q.y))
-            .then(p.z.total_cmp(&q.z))
-    };
-    order.sort_by(|a, b| compare(a, b).then(a.cmp(b)));
-    let mut first_at_place = vec![u32::MAX; mesh.positions.len()];
-    let mut leader = None;
-    for &v in &order {
-        if leader.is_none_or(|l| compare(&l, &v).is_ne()) {
-            leader = Some(v);
-        }
-        first_at_place[v as usize] = leader.unwrap_or(v);
-    }
-    let mut map = vec![None; mesh.positions.len()];
-    let mut welded = Vec::new();
-    for v in 0..mesh.positions.len() {
-        if !used[v] {
-            continue;
-        }
-        let l = first_at_place[v] as usize;
-        if map[l].is_none() {
-            map[l] = Some(welded.len() as u32);
-            welded.push(mesh.positions[l]);
-        }
-        map[v] = map[l];
-    }
-    (map, welded)
-}
-
-/// Area centroid and L = 4 x area-weighted rms radius, both exact integrals over the triangles.
-fn normalize(positions: &[Point], triangles: &[[u32; 3]]) -> Result<Normalization> {
-    let no_area = || {
-        Error::input(
-            "the faces have no area",
-            "all of them are degenerate: check the file's coordinates",
-        )
-    };
-    // A first origin near the shape keeps far-away coordinates from cancelling.
-    let origin = positions.first().copied().ok_or_else(no_area)?;
-    let corners = |t: &[u32; 3]| t.map(|v| positions[v as usize] - origin);
-    let area = |[a, b, c]: &[Vector; 3]| 0.5 * (b - a).cross(&(c - a)).norm();
-    let mut total = 0.0;
-    let mut moment = Vector::zeros();
-    for t in triangles {
-        let x = corners(t);
-        let w = area(&x);
-        total += w;
-        moment += (x[0] + x[1] + x[2]) * (w / 3.0);
-    }
-    if !(total > 0.0 && total.is_finite()) {
-        return Err(no_area());
-    }
-    let mean = moment / total;
-    let mut second = 0.0;
-    for t in triangles {
-        let x = corners(t).map(|v| v - mean);
-        // Exact integral of |x|^2 over a triangle: (|a|^2 + |b|^2 + |c|^2 + |a+b+c|^2) / 12.
-        let sum: f64 = x.iter().map(|v| v.norm_squared()).sum();
-        second += area(&x) * (sum + (x[0] + x[1] + x[2]).norm_squared()) / 12.0;
-    }
-    let scale = 4.0 * (second / total).sqrt();
-    if !(scale > 0.0 && scale.is_finite()) {
-        return Err(no_area());
-    }
-    Ok(Normalization {
-        center: origin + mean,
-        scale,
-    })
 }
 
 fn unit_or_zero(v: Vector) -> Vector {

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::shape::mesh::Mesh;
-use crate::shape::surface::{Surface, Working};
+use crate::shape::{Surface, Working};
 
 /// What the working surface had to leave out, and how it hangs together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use symmetrizer::geom::{Point, Vector, exp_rotation};
-use symmetrizer::shape::surface::Working;
+use symmetrizer::shape::working::Working;
 use symmetrizer::shape::{Mesh, io};
 
 /// The file or folder `relative` of the test data: below `SYMMETRIZER_DATA`, or below `shared/data`

@@ -4,6 +4,8 @@ use symmetrizer::geom::Point;
 use symmetrizer::shape::Mesh;
 use symmetrizer::shape::io::{self, Format};
 
+use symmetrizer::shape::document::{Kept, On, Role};
+
 use crate::shared::*;
 
 #[test]
@@ -42,7 +44,6 @@ fn stl_messages() {
         &["line 5", "1 vertices"],
     );
     stl("solid x\nhello", &["line 2", "'hello'"]);
-    stl("solid x\nendsolid x\n", &["no vertices"]);
     stl("short", &["byte 5"]);
     let mut far = pyramid();
     far.positions[0].x = 1e300;
@@ -59,4 +60,35 @@ fn binary_stl_that_says_solid() {
     assert_eq!(decoded(bytes.clone(), Format::Stl), plain);
     bytes.truncate(bytes.len() - 30);
     assert!(failure(Format::Stl, &bytes).contains("the file ends"));
+}
+
+#[test]
+fn stl_text_comes_out_as_it_went_in() {
+    let solid = "solid my part\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n\
+                 vertex 0 0.1 0\nendloop\nendfacet\nendsolid\n";
+    let nameless = solid.replace(" my part", "").replace("0.1", "7");
+    let read = document(format!("{solid}{nameless}").into_bytes(), Format::Stl);
+    let groups = &read.layer(On::Face, Role::Group).unwrap().values;
+    assert_eq!([groups.name(0), groups.name(1)], [Some("my part"), None]);
+    let mut bytes = Vec::new();
+    io::encode(&read, Format::Stl, &mut bytes).unwrap();
+    assert!(bytes.starts_with(b"solid my part\n facet normal 0 0 1\n"));
+    assert_eq!(document(bytes, Format::Stl), read);
+}
+
+#[test]
+fn binary_stl_keeps_header_and_free_bytes() {
+    let mut bytes = encoded(&pyramid(), Format::Stl);
+    bytes[..5].copy_from_slice(b"COLOR");
+    bytes[84 + 48] = 7;
+    bytes[84 + 49] = 1;
+    let read = document(bytes.clone(), Format::Stl);
+    assert!(matches!(&read.kept, Kept::Stl(kept) if kept.header.starts_with(b"COLOR")));
+    assert_eq!(
+        read.layer(On::Face, Role::Other).unwrap().values.get(0, 0),
+        Some(263.0)
+    );
+    let mut again = Vec::new();
+    io::encode(&read, Format::Stl, &mut again).unwrap();
+    assert_eq!(again, bytes);
 }

@@ -7,7 +7,7 @@ use crate::apply::measure::distortion::{Distortion, distortion};
 use crate::context::Context;
 use crate::error::Result;
 use crate::shape::Surface;
-use crate::shape::surface::Normalization;
+use crate::shape::working::Normalization;
 use crate::transform::isometry::Plane;
 
 /// What `measure` says of one state of a shape.

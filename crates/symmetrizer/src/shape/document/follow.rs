@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 use super::layer::{Layer, NO_ROW, On, Values};
 use super::{Document, Numbers};
 use crate::geom::{Point, Vector};
-use crate::shape::surface::Working;
+use crate::shape::working::Working;
 
 impl Document {
     /// The document with its shape deformed as `working`, its working surface, was: `positions` are

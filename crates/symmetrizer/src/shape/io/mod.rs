@@ -19,7 +19,7 @@ use std::io::Write;
 use std::path::Path;
 
 use crate::error::{Error, Result};
-use crate::shape::document::Document;
+use crate::shape::document::{Document, Kept};
 
 pub use whole::Output;
 
@@ -214,4 +214,13 @@ pub fn losses(document: &Document, format: Format) -> Vec<String> {
         Format::Xyz => xyz::losses(document),
     });
     lost
+}
+
+/// The files that `document` names when it is written in `format`, such as material libraries;
+/// relative to the file's folder.
+pub fn companions(document: &Document, format: Format) -> Vec<String> {
+    match (&document.kept, format) {
+        (Kept::Obj(kept), Format::Obj) => kept.libraries.clone(),
+        _ => Vec::new(),
+    }
 }

@@ -1,0 +1,40 @@
+//! `symmetrize convert`: a shape in another format.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use symmetrizer::Result;
+
+use crate::Answer;
+use crate::files::{MeshFile, check_distinct, commit};
+use crate::input::{self, Input};
+use crate::options::Desk;
+
+/// Write a shape in another format
+///
+/// Vertices and faces keep their order, and everything that the new format can hold comes along:
+/// texture coordinates, colours, groups, materials, weights. What it cannot hold is listed.
+#[derive(Args)]
+pub struct ConvertArgs {
+    #[arg(help = input::HELP)]
+    input: Input,
+    /// Write the shape here; the extension says how (obj, ply, off, stl, gltf, glb, 3mf, xyz)
+    output: PathBuf,
+}
+
+/// The verb.
+pub fn convert(args: &ConvertArgs, desk: &Desk) -> Result<Answer> {
+    check_distinct(args.input.path(), &[&args.output], &[])?;
+    let file = MeshFile::reserve(&args.output)?;
+    let mut ctx = desk.context();
+    let document = args.input.read(&mut ctx)?;
+    let warnings = file.warnings(&document);
+    let complete = ctx.stage("write", |_| file.write(&document))?;
+    ctx.check()?;
+    commit([complete])?;
+    desk.say(&format!("wrote   {}\n", args.output.display()));
+    for warning in warnings {
+        desk.say(&format!("warning {warning}\n"));
+    }
+    Ok(Answer::Yes)
+}

@@ -1,0 +1,85 @@
+//! The working surface: triangles in normalised coordinates, with the map back to the document.
+//!
+//! Every stage runs here. The area centroid is the origin and the rotation-invariant scale
+//! L = 4 x area-weighted rms radius is 1, so that all lengths inside are fractions of L and nothing
+//! depends on the units, the place or the bounding box of the file. The surface is also clean: what
+//! the document holds twice, inside out or not at all is put right here, and only here.
+
+mod faces;
+mod normalization;
+mod orient;
+mod weld;
+
+use crate::error::Result;
+use crate::geom::{Point, Vector};
+use crate::shape::mesh::Mesh;
+use crate::shape::surface::Surface;
+
+use faces::usable;
+use normalization::normalize;
+use orient::orient;
+use weld::{drop_unused, weld};
+
+pub use faces::Mended;
+pub use normalization::Normalization;
+
+/// A surface to work on and its relation to the document it came from.
+#[derive(Debug, Clone)]
+pub struct Working {
+    /// The rest surface: vertices in equal places welded; unused ones left out, as are faces that are
+    /// degenerate, there already, or without a finite position; faces of a connected part run the same
+    /// way round.
+    pub surface: Surface,
+    /// The similarity to document coordinates.
+    pub normalization: Normalization,
+    /// The working vertex of each document vertex; `None` for vertices that no face here uses.
+    pub vertex_of_document: Vec<Option<u32>>,
+    /// The document's polygon of each working triangle.
+    pub polygon_of_face: Vec<u32>,
+    /// The index among [`Mesh::triangles`] of each working triangle.
+    pub document_face: Vec<u32>,
+    /// What differs from the document.
+    pub mended: Mended,
+}
+
+impl Working {
+    /// The working surface of a document mesh.
+    ///
+    /// # Errors
+    /// [`crate::Error::Input`] where [`Mesh::check`] fails or the surface has no area.
+    pub fn new(mesh: &Mesh) -> Result<Self> {
+        mesh.check()?;
+        let mut mended = Mended::default();
+        let (mut vertex_of_document, mut welded) = weld(mesh);
+        let faces = usable(mesh, &vertex_of_document, &mut mended);
+        let mut triangles: Vec<[u32; 3]> = faces.iter().map(|f| f.corners).collect();
+        drop_unused(&mut vertex_of_document, &mut welded, &mut triangles);
+        mended.turned = orient(&welded, &mut triangles);
+        let normalization = normalize(&welded, &triangles)?;
+        let positions = welded.iter().map(|p| normalization.to_working(p)).collect();
+        Ok(Self {
+            surface: Surface::new(positions, triangles.into()),
+            normalization,
+            vertex_of_document,
+            polygon_of_face: faces.iter().map(|f| f.polygon).collect(),
+            document_face: faces.iter().map(|f| f.index).collect(),
+            mended,
+        })
+    }
+
+    /// The document with its vertices moved as the working vertices were; a vertex that did not
+    /// move, or that no face uses, keeps its coordinates to the last bit.
+    pub fn moved_document(&self, mesh: &Mesh, positions: &[Point]) -> Mesh {
+        let mut moved = mesh.clone();
+        for (p, &v) in moved.positions.iter_mut().zip(&self.vertex_of_document) {
+            if let Some(v) = v {
+                let moved = positions[v as usize] - self.surface.positions[v as usize];
+                // Adding zero would turn -0 into 0.
+                if moved != Vector::zeros() {
+                    *p += moved * self.normalization.scale;
+                }
+            }
+        }
+        moved
+    }
+}
