@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
-use symmetrizer::{Outcome, Warning};
 use symmetrizer::apply::measure::{AsymmetryReport, Distortion, PlaneReport};
 use symmetrizer::optimize::Step;
 use symmetrizer::report::{InputReport, RefusalReport, Report, ShapeReport, SymmetryReport};
+use symmetrizer::{Outcome, Warning};
 
 /// Refused modes listed at the most; the report has them all.
 const REFUSED: usize = 8;

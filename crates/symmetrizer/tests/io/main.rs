@@ -9,6 +9,7 @@ mod obj;
 mod off;
 mod ply;
 mod properties;
+mod rich;
 mod shared;
 mod stl;
 mod threemf;

@@ -4,6 +4,7 @@ use proptest::prelude::*;
 use symmetrizer::shape::Mesh;
 use symmetrizer::shape::io::{self, Format};
 
+use crate::rich::rich;
 use crate::shared::*;
 
 fn any_mesh() -> impl Strategy<Value = Mesh> {
@@ -25,6 +26,36 @@ fn bits(mesh: &Mesh) -> String {
 }
 
 proptest! {
+    /// What a format has taken in, whatever it is, it gives back to the last bit.
+    #[test]
+    fn read_write_read_is_the_identity(mask in any::<u32>(), seed in any::<u64>()) {
+        for format in Format::ALL {
+            let first = document(encoded_document(&rich(mask, seed), format), format);
+            let second = document(encoded_document(&first, format), format);
+            prop_assert_eq!(format!("{first:?}"), format!("{second:?}"), "{:?}", format);
+            prop_assert_eq!(io::losses(&first, format), Vec::<String>::new(), "{:?}", format);
+        }
+    }
+
+    /// What a format does not say that it loses, it has.
+    #[test]
+    fn layers_survive_or_are_named(mask in any::<u32>(), seed in any::<u64>()) {
+        let rich = rich(mask, seed);
+        for format in Format::ALL {
+            let read = document(encoded_document(&rich, format), format);
+            let lost = io::losses(&rich, format);
+            for layer in &rich.layers {
+                let alone = symmetrizer::shape::Document {
+                    layers: vec![layer.clone()],
+                    ..rich.mesh.clone().into()
+                };
+                let named = io::losses(&alone, format).iter().any(|l| lost.contains(l) && l.contains("(per "));
+                let there = read.layers.iter().any(|l| l.role == layer.role || l.on == layer.on);
+                prop_assert!(named || there, "{:?}: {:?} on {:?}", format, layer.role, layer.on);
+            }
+        }
+    }
+
     #[test]
     fn any_mesh_round_trips(mesh in any_mesh()) {
         for format in [Format::Obj, Format::Off, Format::Ply] {

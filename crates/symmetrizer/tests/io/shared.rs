@@ -68,3 +68,10 @@ pub fn decoded(bytes: Vec<u8>, format: Format) -> Mesh {
 pub fn document(bytes: Vec<u8>, format: Format) -> Document {
     io::decode(bytes, format).unwrap()
 }
+
+/// The bytes of a document in a format.
+pub fn encoded_document(document: &Document, format: Format) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    io::encode(document, format, &mut bytes).unwrap();
+    bytes
+}
