@@ -8,7 +8,7 @@ mod kept;
 mod layer;
 mod numbers;
 
-pub use kept::{GltfKept, Kept, ObjKept, PlyKept, StlKept, ThreeMfKept};
+pub use kept::{GltfKept, Kept, ObjKept, PlyKept, StlKept, ThreeMfBlock, ThreeMfKept};
 pub use layer::{Layer, MorphPart, NO_ROW, On, Role, Values};
 pub use numbers::{Kind, Numbers};
 

@@ -1,0 +1,338 @@
+//! The build: every mesh object where the build items and components put it.
+
+use std::collections::BTreeMap;
+
+use super::model::{Model, Object, Placed};
+use super::package::{Package, bound};
+use super::transform::Transform;
+use super::xml::{Text, shown};
+use crate::error::{Error, Result};
+use crate::shape::document::{Layer, NO_ROW, On, Role, Values};
+use crate::shape::mesh::Mesh;
+
+/// Components within components, at most.
+const DEPTH: usize = 32;
+
+/// What each placement counts for, in bytes, besides its vertices and triangles.
+const PLACEMENT: u64 = 128;
+
+/// A model part.
+pub(super) struct Part {
+    /// Its entry in the package.
+    pub entry: usize,
+    /// Its name.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+    /// What the text says.
+    pub model: Model,
+}
+
+/// A mesh object at one of its places: a run of the document's vertices.
+pub(super) struct Block {
+    /// The part that has the object.
+    pub part: usize,
+    /// The object's id.
+    pub object: u32,
+    /// The build item of the first part; `None` where there is no build.
+    pub item: Option<usize>,
+    /// Whether the item names the object itself and not a composition.
+    pub direct: bool,
+    /// From the object's coordinates to those of the document; `None` where they are the same.
+    pub transform: Option<Transform>,
+    /// Its first vertex in the document.
+    pub first: usize,
+    /// Its vertices.
+    pub count: usize,
+}
+
+/// The content of a package.
+pub(super) struct Build {
+    /// The model parts, first the one that the package starts with.
+    pub parts: Vec<Part>,
+    /// The runs of the document's vertices.
+    pub blocks: Vec<Block>,
+    /// Their shapes together, document coordinates.
+    pub mesh: Mesh,
+    /// Names of objects and materials.
+    pub layers: Vec<Layer>,
+}
+
+impl Build {
+    /// The build in a package that comes from a file of `size` bytes.
+    pub fn read(package: &mut Package<'_>, size: usize) -> Result<Self> {
+        let parts = parts(package)?;
+        let mut builder = Builder {
+            parts: &parts,
+            mesh: Mesh::default(),
+            blocks: Vec::new(),
+            objects: Names::default(),
+            materials: Names::default(),
+            groups: BTreeMap::new(),
+            inside: Vec::new(),
+            left: bound(size),
+        };
+        builder.all()?;
+        let (mesh, blocks) = (builder.mesh, builder.blocks);
+        let layers = [
+            builder.objects.layer(Role::Object),
+            builder.materials.layer(Role::Material),
+        ];
+        Ok(Self {
+            layers: layers.into_iter().flatten().collect(),
+            parts,
+            blocks,
+            mesh,
+        })
+    }
+}
+
+/// The part that the package starts with, and all that it refers to.
+fn parts(package: &mut Package<'_>) -> Result<Vec<Part>> {
+    let mut entries = vec![package.start()?];
+    let mut known = BTreeMap::from([(entries[0], 0)]);
+    let mut parts: Vec<Part> = Vec::new();
+    while let Some(&entry) = entries.get(parts.len()) {
+        let (name, text) = (package.names()[entry].clone(), package.text(entry)?);
+        let mut model = Model::read(Text {
+            part: &shown(&name),
+            text: &text,
+        })?;
+        for placed in model.placed_mut() {
+            let found = match &placed.path {
+                None => entry,
+                Some(path) => package.find(path).ok_or_else(|| no_part(&name, path))?,
+            };
+            placed.part = *known.entry(found).or_insert_with(|| {
+                entries.push(found);
+                entries.len() - 1
+            });
+        }
+        parts.push(Part {
+            entry,
+            name,
+            text,
+            model,
+        });
+    }
+    Ok(parts)
+}
+
+/// Names in the order of their first appearance, and one or none of them for each face so far.
+#[derive(Default)]
+struct Names {
+    names: Vec<String>,
+    rows: BTreeMap<String, u32>,
+    of: Vec<u32>,
+}
+
+impl Names {
+    fn row(&mut self, name: &str) -> u32 {
+        if let Some(&row) = self.rows.get(name) {
+            return row;
+        }
+        let row = self.names.len() as u32;
+        self.rows.insert(name.to_owned(), row);
+        self.names.push(name.to_owned());
+        row
+    }
+
+    fn layer(self, role: Role) -> Option<Layer> {
+        let used = self.of.iter().any(|&row| row != NO_ROW);
+        used.then(|| Layer {
+            name: String::new(),
+            on: On::Face,
+            role,
+            values: Values::Names {
+                names: self.names,
+                of: self.of,
+            },
+        })
+    }
+}
+
+struct Builder<'a> {
+    parts: &'a [Part],
+    mesh: Mesh,
+    blocks: Vec<Block>,
+    objects: Names,
+    materials: Names,
+    /// The material names of a group of a part.
+    groups: BTreeMap<(usize, u32), Vec<u32>>,
+    /// The objects around the one that is being placed.
+    inside: Vec<(usize, u32)>,
+    /// Bytes that the document may still take.
+    left: u64,
+}
+
+/// Where an object goes.
+#[derive(Clone, Copy)]
+struct Spot<'a> {
+    item: Option<usize>,
+    transform: Option<&'a Transform>,
+    name: Option<&'a str>,
+}
+
+impl<'a> Builder<'a> {
+    fn all(&mut self) -> Result<()> {
+        for (p, part) in self.parts.iter().enumerate() {
+            for (&group, names) in &part.model.materials {
+                let rows = names.iter().map(|n| self.materials.row(n)).collect();
+                self.groups.insert((p, group), rows);
+            }
+        }
+        let model = &self.parts[0].model;
+        for (i, item) in model.items.iter().enumerate() {
+            let spot = Spot {
+                item: Some(i),
+                transform: None,
+                name: None,
+            };
+            self.put(0, item, spot)?;
+        }
+        if model.items.is_empty() {
+            for &id in &model.order {
+                let spot = Spot {
+                    item: None,
+                    transform: None,
+                    name: None,
+                };
+                self.mesh_of((0, id), &model.objects[&id], spot)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Puts what an item or component of part `from` names at a spot.
+    fn put(&mut self, from: usize, placed: &'a Placed, spot: Spot<'_>) -> Result<()> {
+        let at = (placed.part, placed.object);
+        let object = self.object(from, at)?;
+        let transform = Transform::chain(spot.transform, placed.transform.as_ref());
+        let spot = Spot {
+            item: spot.item,
+            transform: transform.as_ref(),
+            name: object.name.as_deref().or(spot.name),
+        };
+        self.mesh_of(at, object, spot)?;
+        self.inside.push(at);
+        for component in &object.components {
+            self.put(at.0, component, spot)?;
+        }
+        self.inside.pop();
+        Ok(())
+    }
+
+    fn object(&self, from: usize, at: (usize, u32)) -> Result<&'a Object> {
+        let (part, id) = at;
+        let name = shown(&self.parts[part].name);
+        if self.inside.contains(&at) {
+            return Err(Error::input(
+                format!("{name}: the object {id} is a component of itself"),
+                "the file is damaged; export it again",
+            ));
+        }
+        if self.inside.len() >= DEPTH {
+            return Err(Error::input(
+                format!("{name}: the object {id} is nested in more than {DEPTH} others"),
+                "join the components into one object first",
+            ));
+        }
+        self.parts[part].model.objects.get(&id).ok_or_else(|| {
+            let from = shown(&self.parts[from].name);
+            Error::input(
+                format!("{from} names the object {id}, which {name} does not have"),
+                "the file is cut off or damaged; export it again",
+            )
+        })
+    }
+
+    /// The object's own triangles at a spot.
+    fn mesh_of(&mut self, at: (usize, u32), object: &Object, spot: Spot<'_>) -> Result<()> {
+        let name = object.name.as_deref().or(spot.name);
+        self.charge(at, object, name)?;
+        if object.positions.is_empty() && object.triangles.is_empty() {
+            return Ok(());
+        }
+        let first = self.mesh.positions.len();
+        let moved = object.positions.iter();
+        let moved = moved.map(|p| spot.transform.map_or(*p, |t| t.apply(p)));
+        self.mesh.positions.extend(moved);
+        let mirrored = spot.transform.is_some_and(Transform::mirrors);
+        for (t, &[a, b, c]) in object.triangles.iter().enumerate() {
+            let count = object.positions.len();
+            if let Some(v) = [a, b, c].into_iter().find(|&v| v as usize >= count) {
+                return Err(self.no_vertex(at, t, v, count));
+            }
+            // A mirror turns a solid's triangles inside out.
+            let [b, c] = if mirrored { [c, b] } else { [b, c] };
+            let corners = [a, b, c].map(|v| v + first as u32);
+            self.mesh.polygons.push(&corners);
+            let property = object.property(t);
+            let material = property.and_then(|(group, index)| {
+                let rows = self.groups.get(&(at.0, group))?;
+                rows.get(index as usize).copied()
+            });
+            self.materials.of.push(material.unwrap_or(NO_ROW));
+        }
+        let named = name.map_or(NO_ROW, |name| self.objects.row(name));
+        self.objects.of.resize(self.mesh.polygons.len(), named);
+        self.blocks.push(Block {
+            part: at.0,
+            object: at.1,
+            item: spot.item,
+            direct: self.inside.is_empty(),
+            transform: spot.transform.cloned(),
+            first,
+            count: object.positions.len(),
+        });
+        Ok(())
+    }
+
+    /// A few bytes can place the same object thousands of times, and those again.
+    fn charge(
+        &mut self,
+        (part, id): (usize, u32),
+        object: &Object,
+        name: Option<&str>,
+    ) -> Result<()> {
+        let (vertices, triangles) = (object.positions.len(), object.triangles.len());
+        let name = name.map_or(0, str::len) as u64;
+        let bytes = PLACEMENT + name + 24 * vertices as u64 + 24 * triangles as u64;
+        let corners = 3 * (self.mesh.polygons.len() as u64 + triangles as u64);
+        let all = corners.max(self.mesh.positions.len() as u64 + vertices as u64);
+        if bytes > self.left || all >= u64::from(u32::MAX) {
+            let part = shown(&self.parts[part].name);
+            return Err(Error::input(
+                format!(
+                    "{part}: with the object {id} put at all its places, the shape is too large \
+                     for a file of this size"
+                ),
+                "build fewer copies",
+            ));
+        }
+        self.left -= bytes;
+        Ok(())
+    }
+
+    fn no_vertex(&self, (part, id): (usize, u32), t: usize, v: u32, count: usize) -> Error {
+        let part = shown(&self.parts[part].name);
+        Error::input(
+            format!(
+                "{part}: triangle {t} of object {id} (counted from 0) names vertex {v}, but the \
+                 object has only {count} vertices"
+            ),
+            "the file is cut off or its triangle list is damaged",
+        )
+    }
+}
+
+fn no_part(from: &str, path: &str) -> Error {
+    Error::input(
+        format!(
+            "{} refers to {}, which is not in the package",
+            shown(from),
+            shown(path)
+        ),
+        "the file is damaged; export it again",
+    )
+}
