@@ -36,6 +36,8 @@ use transform::Transform;
 pub(super) fn decode(bytes: Vec<u8>) -> Result<Document> {
     let mut package = Package::open(&bytes)?;
     let build = Build::read(&mut package, bytes.len())?;
+    // What cannot be copied should be known before the work and not after it.
+    package.with_texts(&[])?;
     let besides = besides(&package, &build);
     let block = |b: &placed::Block| ThreeMfBlock {
         part: build.parts[b.part].name.clone(),

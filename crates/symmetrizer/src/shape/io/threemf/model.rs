@@ -150,6 +150,10 @@ impl Model {
     }
 
     fn tag(&mut self, open: &mut Open, tag: &Tag<'_>, element: Element) -> Result<()> {
+        // A change of the shape reads these again, in whole.
+        if matches!(element, Element::Object | Element::Item) {
+            tag.check()?;
+        }
         let object = &mut open.object;
         match element {
             Element::Model => self.unit = tag.value("unit")?,

@@ -188,8 +188,8 @@ fn unwritable(error: zip::result::ZipError) -> Error {
     match error {
         zip::result::ZipError::Io(e) => Error::io("", e),
         other => Error::input(
-            format!("the package cannot be written: {other}"),
-            "write another format, or export the input file again",
+            format!("the parts of the package cannot be copied: {other}"),
+            "the file is damaged; export it again",
         ),
     }
 }

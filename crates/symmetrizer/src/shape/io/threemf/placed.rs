@@ -40,6 +40,8 @@ pub(super) struct Block {
     pub direct: bool,
     /// From the object's coordinates to those of the document; `None` where they are the same.
     pub transform: Option<Transform>,
+    /// The name that it has from a composition around it, for want of its own.
+    pub name: Option<String>,
     /// Its first vertex in the document.
     pub first: usize,
     /// Its vertices.
@@ -282,6 +284,7 @@ impl<'a> Builder<'a> {
             item: spot.item,
             direct: self.inside.is_empty(),
             transform: spot.transform.cloned(),
+            name: name.filter(|_| object.name.is_none()).map(str::to_owned),
             first,
             count: object.positions.len(),
         });

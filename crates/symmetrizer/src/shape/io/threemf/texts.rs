@@ -116,56 +116,98 @@ impl<'a> Texts<'a> {
             if !blocks.iter().any(|&b| given[b].new) {
                 continue;
             }
-            let site = &self.sites[0].items[item];
-            if let [b] = blocks[..]
-                && self.build.blocks[b].direct
-                && !given[b].placed
-            {
-                let edit = (site.object.clone(), given[b].id.to_string());
-                self.edits[0].push(edit);
-                continue;
-            }
-            let attributes = site.path.iter().chain(&site.transform);
-            let mut edits: Edits = attributes.map(|a| (a.clone(), String::new())).collect();
-            let object = site.object.clone();
-            let id = free_id(&mut self.sites[0].ids);
-            edits.push((object, id.to_string()));
-            self.edits[0].extend(edits);
-            compositions += &self.composition(item, &blocks, given, id);
+            let single = matches!(blocks[..], [b] if self.build.blocks[b].direct);
+            let id = if single && !given[blocks[0]].placed {
+                given[blocks[0]].id
+            } else {
+                let site = &self.sites[0].items[item];
+                let attributes = site.path.iter().chain(&site.transform);
+                self.edits[0].extend(attributes.map(|a| (a.clone(), String::new())));
+                self.composition(item, &blocks, given, &mut compositions)
+            };
+            let object = self.sites[0].items[item].object.clone();
+            self.edits[0].push((object, id.to_string()));
         }
         self.add_objects(compositions);
     }
 
-    /// A flat composition in place of what a build item names.
-    fn composition(&self, item: usize, blocks: &[usize], given: &[Given], id: u32) -> String {
-        let from = &self.build.parts[0].model.items[item];
-        let site = self.sites[from.part].objects.get(&from.object);
-        let named = site.and_then(|s| s.uuid.clone());
-        let named = named.map(|place| &self.build.parts[from.part].text[place]);
-        let universal = |k: usize| {
-            let text = named.map(|base| format!(" p:UUID=\"{}\"", uuid(base, id, k)));
-            text.unwrap_or_default()
-        };
-        let prefix = &self.sites[0].prefix;
-        let carried = site.map_or("", |s| &s.carried);
-        let mut text = format!(
-            "<{prefix}object id=\"{id}\"{carried} xmlns:p=\"{PRODUCTION}\"{}><{prefix}components>",
-            universal(0)
-        );
+    /// A flat composition in place of what a build item names; returns its id.
+    fn composition(
+        &mut self,
+        item: usize,
+        blocks: &[usize],
+        given: &[Given],
+        objects: &mut String,
+    ) -> u32 {
+        let build = self.build;
+        let from = &build.parts[0].model.items[item];
+        let from = (from.part, from.object);
+        let named = build.parts[from.0].model.objects.get(&from.1);
+        let name = named.and_then(|o| o.name.as_ref());
+        let mut components = String::new();
         for (k, &b) in blocks.iter().enumerate() {
-            let block = &self.build.blocks[b];
-            text += &format!("<{prefix}component objectid=\"{}\"", given[b].id);
-            if block.part != 0 {
-                let path = quoted(&self.build.parts[block.part].name);
-                text += &format!(" p:path=\"/{path}\"");
+            let id = free_id(&mut self.sites[0].ids);
+            let block = &build.blocks[b];
+            let component = self.component(from, (id, k), b, &given[b]);
+            match &block.name {
+                // It lies in a composition of its own that keeps the name.
+                Some(inner) if Some(inner) != name => {
+                    let carried = format!(" name=\"{}\"", quoted(inner));
+                    *objects += &self.composed(from, id, &carried, &component);
+                    let prefix = &self.sites[0].prefix;
+                    let universal = self.universal(from, id, 1);
+                    components += &format!("<{prefix}component objectid=\"{id}\"{universal}/>");
+                }
+                _ => components += &component,
             }
-            let transform = block.transform.as_ref().filter(|_| !given[b].placed);
-            if let Some(transform) = transform {
-                text += &format!(" transform=\"{}\"", transform.text());
-            }
-            text += &format!("{}/>", universal(k + 1));
         }
-        text + &format!("</{prefix}components></{prefix}object>")
+        let id = free_id(&mut self.sites[0].ids);
+        let site = self.sites[from.0].objects.get(&from.1);
+        let carried = site.map_or("", |s| &s.carried);
+        *objects += &self.composed(from, id, carried, &components);
+        id
+    }
+
+    /// The component of a flat composition that shows block `b`.
+    fn component(
+        &self,
+        from: (usize, u32),
+        (id, k): (u32, usize),
+        b: usize,
+        given: &Given,
+    ) -> String {
+        let block = &self.build.blocks[b];
+        let prefix = &self.sites[0].prefix;
+        let mut text = format!("<{prefix}component objectid=\"{}\"", given.id);
+        if block.part != 0 {
+            let path = quoted(&self.build.parts[block.part].name);
+            text += &format!(" p:path=\"/{path}\"");
+        }
+        if let Some(transform) = block.transform.as_ref().filter(|_| !given.placed) {
+            text += &format!(" transform=\"{}\"", transform.text());
+        }
+        text + &self.universal(from, id, k + 2) + "/>"
+    }
+
+    /// An object of components.
+    fn composed(&self, from: (usize, u32), id: u32, carried: &str, components: &str) -> String {
+        let prefix = &self.sites[0].prefix;
+        let universal = self.universal(from, id, 0);
+        let extended = components.contains(" p:") || !universal.is_empty();
+        let space = format!(" xmlns:p=\"{PRODUCTION}\"");
+        let space = if extended { &space } else { "" };
+        format!(
+            "<{prefix}object id=\"{id}\"{carried}{space}{universal}>\
+             <{prefix}components>{components}</{prefix}components></{prefix}object>"
+        )
+    }
+
+    /// The UUID attribute of a new element, where the object that it stems from has one.
+    fn universal(&self, (part, object): (usize, u32), id: u32, k: usize) -> String {
+        let site = self.sites[part].objects.get(&object);
+        let base = site.and_then(|s| s.uuid.clone());
+        let base = base.map(|place| &self.build.parts[part].text[place]);
+        base.map_or(String::new(), |b| format!(" p:UUID=\"{}\"", uuid(b, id, k)))
     }
 
     fn add_objects(&mut self, objects: String) {

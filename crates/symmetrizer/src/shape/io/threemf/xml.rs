@@ -274,6 +274,11 @@ impl<'a> Tag<'a> {
         Ok(text)
     }
 
+    /// Fails where an attribute is damaged, also one that nobody asks for.
+    pub fn check(&self) -> Result<()> {
+        self.find(|_| false).map(|_| ())
+    }
+
     /// An input error at this tag.
     pub fn error(&self, what: impl std::fmt::Display, hint: &str) -> Error {
         self.document.error(self.start, what, hint)
