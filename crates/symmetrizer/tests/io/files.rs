@@ -131,7 +131,7 @@ fn protected_files_are_not_read() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mine.obj");
     std::fs::write(&path, "v 0 0 0").unwrap();
-    std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0)).unwrap();
+    std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o000)).unwrap();
     if std::fs::File::open(&path).is_ok() {
         eprintln!("SKIPPED: the superuser may read everything");
         return;

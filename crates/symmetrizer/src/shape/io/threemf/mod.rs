@@ -4,8 +4,9 @@
 //! triangles and drops names, materials, metadata and everything of the extensions.
 //!
 //! * [`package`]: the zip file and its parts, unpacked within a bound.
-//! * [`xml`]: tags and attributes with their places in the text.
-//! * [`model`], [`transform`], [`placed`]: objects, and the document that the build makes of them.
+//! * [`xml`], [`tag`]: tags and attributes with their places in the text.
+//! * [`model`], [`transform`], [`parts`]: what the model parts say.
+//! * [`placed`], [`names`]: the document that the build makes of it.
 //! * [`sites`], [`texts`], [`restored`]: the same package with the vertices that have moved.
 //! * [`fresh`]: a new package.
 //!
@@ -13,10 +14,13 @@
 
 mod fresh;
 mod model;
+mod names;
 mod package;
+mod parts;
 mod placed;
 mod restored;
 mod sites;
+mod tag;
 mod texts;
 mod transform;
 mod xml;
@@ -31,13 +35,16 @@ use package::Package;
 use placed::Build;
 use transform::Transform;
 
+/// More packed files than these are only counted.
+const FILES: usize = 3;
+
 /// The document in the bytes of a 3MF file. Its vertices are in build coordinates, in the file's
 /// unit.
 pub(super) fn decode(bytes: Vec<u8>) -> Result<Document> {
     let mut package = Package::open(&bytes)?;
     let build = Build::read(&mut package, bytes.len())?;
     // What cannot be copied should be known before the work and not after it.
-    package.with_texts(&[])?;
+    package.with_texts(&BTreeMap::new())?;
     let besides = besides(&package, &build);
     let block = |b: &placed::Block| ThreeMfBlock {
         part: build.parts[b.part].name.clone(),
@@ -117,6 +124,17 @@ fn besides(package: &Package<'_>, build: &Build) -> Vec<String> {
             name.ends_with('/') || name.ends_with(".rels") || *name == "[Content_Types].xml";
         !of_zip && build.parts.iter().all(|p| p.entry != *entry)
     });
-    phrases.extend(others.map(|(_, name)| format!("the packed file {}", xml::shown(name))));
+    let others: Vec<&String> = others.map(|(_, name)| name).collect();
+    match others.len() {
+        0..=FILES => phrases.extend(
+            others
+                .iter()
+                .map(|n| format!("the packed file {}", xml::shown(n))),
+        ),
+        n => phrases.push(format!(
+            "{n} packed files, such as {}",
+            xml::shown(others[0])
+        )),
+    }
     phrases
 }

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use super::tag::Tag;
 use super::transform::Transform;
-use super::xml::{Elements, Step, Tag, Text};
+use super::xml::{Elements, Step, Text};
 use crate::error::Result;
 use crate::geom::Point;
 

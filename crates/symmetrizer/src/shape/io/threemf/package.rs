@@ -141,12 +141,11 @@ impl<'a> Package<'a> {
     }
 
     /// The package with new texts for some entries; everything else is copied as it is packed.
-    pub fn with_texts(&mut self, texts: &[(usize, String)]) -> Result<Vec<u8>> {
+    pub fn with_texts(&mut self, texts: &BTreeMap<usize, String>) -> Result<Vec<u8>> {
         let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
         for entry in 0..self.archive.len() {
-            let text = texts.iter().find(|(changed, _)| *changed == entry);
             let file = self.archive.by_index_raw(entry).map_err(unwritable)?;
-            let Some((_, text)) = text else {
+            let Some(text) = texts.get(&entry) else {
                 writer.raw_copy_file(file).map_err(unwritable)?;
                 continue;
             };

@@ -2,12 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use super::model::{Model, Object, Placed};
+use super::model::{Object, Placed};
+use super::names::Names;
 use super::package::{Package, bound};
+use super::parts::{Part, parts};
 use super::transform::Transform;
-use super::xml::{Text, shown};
+use super::xml::shown;
 use crate::error::{Error, Result};
-use crate::shape::document::{Layer, NO_ROW, On, Role, Values};
+use crate::shape::document::{Layer, NO_ROW, Role};
 use crate::shape::mesh::Mesh;
 
 /// Components within components, at most.
@@ -15,18 +17,6 @@ const DEPTH: usize = 32;
 
 /// What each placement counts for, in bytes, besides its vertices and triangles.
 const PLACEMENT: u64 = 128;
-
-/// A model part.
-pub(super) struct Part {
-    /// Its entry in the package.
-    pub entry: usize,
-    /// Its name.
-    pub name: String,
-    /// Its text.
-    pub text: String,
-    /// What the text says.
-    pub model: Model,
-}
 
 /// A mesh object at one of its places: a run of the document's vertices.
 pub(super) struct Block {
@@ -85,70 +75,6 @@ impl Build {
             parts,
             blocks,
             mesh,
-        })
-    }
-}
-
-/// The part that the package starts with, and all that it refers to.
-fn parts(package: &mut Package<'_>) -> Result<Vec<Part>> {
-    let mut entries = vec![package.start()?];
-    let mut known = BTreeMap::from([(entries[0], 0)]);
-    let mut parts: Vec<Part> = Vec::new();
-    while let Some(&entry) = entries.get(parts.len()) {
-        let (name, text) = (package.names()[entry].clone(), package.text(entry)?);
-        let mut model = Model::read(Text {
-            part: &shown(&name),
-            text: &text,
-        })?;
-        for placed in model.placed_mut() {
-            let found = match &placed.path {
-                None => entry,
-                Some(path) => package.find(path).ok_or_else(|| no_part(&name, path))?,
-            };
-            placed.part = *known.entry(found).or_insert_with(|| {
-                entries.push(found);
-                entries.len() - 1
-            });
-        }
-        parts.push(Part {
-            entry,
-            name,
-            text,
-            model,
-        });
-    }
-    Ok(parts)
-}
-
-/// Names in the order of their first appearance, and one or none of them for each face so far.
-#[derive(Default)]
-struct Names {
-    names: Vec<String>,
-    rows: BTreeMap<String, u32>,
-    of: Vec<u32>,
-}
-
-impl Names {
-    fn row(&mut self, name: &str) -> u32 {
-        if let Some(&row) = self.rows.get(name) {
-            return row;
-        }
-        let row = self.names.len() as u32;
-        self.rows.insert(name.to_owned(), row);
-        self.names.push(name.to_owned());
-        row
-    }
-
-    fn layer(self, role: Role) -> Option<Layer> {
-        let used = self.of.iter().any(|&row| row != NO_ROW);
-        used.then(|| Layer {
-            name: String::new(),
-            on: On::Face,
-            role,
-            values: Values::Names {
-                names: self.names,
-                of: self.of,
-            },
         })
     }
 }
@@ -327,15 +253,4 @@ impl<'a> Builder<'a> {
             "the file is cut off or its triangle list is damaged",
         )
     }
-}
-
-fn no_part(from: &str, path: &str) -> Error {
-    Error::input(
-        format!(
-            "{} refers to {}, which is not in the package",
-            shown(from),
-            shown(path)
-        ),
-        "the file is damaged; export it again",
-    )
 }

@@ -7,6 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::package::Package;
+use super::parts::Part;
 use super::placed::{Block, Build};
 use super::sites::Sites;
 use super::texts::{Texts, Variant};
@@ -91,7 +92,7 @@ fn sites(build: &Build, shapes: &[Variant]) -> Result<Vec<Sites>> {
             objects.entry(block.part).or_default().insert(block.object);
         }
     }
-    let find = |(p, part): (usize, &super::placed::Part)| {
+    let find = |(p, part): (usize, &Part)| {
         let text = Text {
             part: &part.name,
             text: &part.text,

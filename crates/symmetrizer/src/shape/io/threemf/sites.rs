@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use super::model::Element;
-use super::xml::{Elements, Place, Step, Tag, Text, local};
+use super::tag::{Place, Tag};
+use super::xml::{Elements, Step, Text, local};
 use crate::error::Result;
 
 /// The places in a text.

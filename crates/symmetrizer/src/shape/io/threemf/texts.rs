@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-use super::placed::{Build, Part};
+use super::parts::Part;
+use super::placed::Build;
 use super::sites::{ObjectSite, Resources, Sites};
 use super::xml::quoted;
 use crate::geom::Point;
@@ -228,7 +229,7 @@ impl<'a> Texts<'a> {
     }
 
     /// The new texts of the entries that change.
-    pub fn finish(self) -> Vec<(usize, String)> {
+    pub fn finish(self) -> BTreeMap<usize, String> {
         let parts = self.build.parts.iter().zip(self.edits);
         let changed = parts.filter(|(_, edits)| !edits.is_empty());
         let text = |(part, edits): (&Part, Edits)| {

@@ -1,6 +1,7 @@
 //! The matrices of build items and components.
 
-use super::xml::{Tag, shown};
+use super::tag::Tag;
+use super::xml::shown;
 use crate::error::Result;
 use crate::geom::{Matrix3, Point, Vector};
 

@@ -1,52 +1,34 @@
-//! XYZ: a point per line, and perhaps a normal, a colour or other numbers behind it.
-//!
-//! Numbers are separated by blanks, tabs, commas or semicolons; `#` and `//` start comments. The
-//! first line may have the count of the points or the names of the columns. Without names, three
-//! further columns are normals if they have unit length, or else colours if they can be.
+//! The lines of an XYZ file and what their columns mean.
 
-use std::io::{BufWriter, Write};
-
-use super::losses::{counted, of_layers};
-use super::text::{at_line, number, plain, str_of};
-use crate::error::{Error, Result};
-use crate::geom::{Point, Vector};
-use crate::shape::document::{Document, Kind, Layer, Numbers, On, Role, Values};
-use crate::shape::mesh::Mesh;
+use super::super::text::{at_line, number, str_of};
+use crate::error::Result;
+use crate::geom::Vector;
+use crate::shape::document::{Kind, Layer, Numbers, On, Role, Values};
 
 /// How far from 1 the length of a normal may be, ...
 const UNIT: f64 = 1e-2;
 /// ... and the share of the lines where it must not be farther.
 const SHARE: f64 = 0.99;
 
-const NORMAL: [&str; 3] = ["nx", "ny", "nz"];
-const COLOR: [&str; 3] = ["red", "green", "blue"];
-
-/// The points in the text of an XYZ file.
-pub(super) fn decode(bytes: &[u8]) -> Result<Document> {
-    let table = Table::read(plain(bytes)?)?;
-    let positions = table.rows().map(|r| Point::new(r[0], r[1], r[2]));
-    Ok(Document {
-        mesh: Mesh {
-            positions: positions.collect(),
-            ..Mesh::default()
-        },
-        layers: table.layers(),
-        ..Document::default()
-    })
-}
+/// The names of a normal's columns.
+pub(super) const NORMAL: [&str; 3] = ["nx", "ny", "nz"];
+/// The names of a colour's columns.
+pub(super) const COLOR: [&str; 3] = ["red", "green", "blue"];
 
 /// The numbers of a file.
 #[derive(Default)]
-struct Table {
+pub(super) struct Table {
     /// The names of the columns, if there are any.
-    names: Vec<String>,
+    pub names: Vec<String>,
     /// Numbers per line, from 3.
-    width: usize,
-    numbers: Vec<f64>,
+    pub width: usize,
+    /// The numbers of all lines.
+    pub numbers: Vec<f64>,
 }
 
 impl Table {
-    fn read(bytes: &[u8]) -> Result<Self> {
+    /// The numbers in a text.
+    pub fn read(bytes: &[u8]) -> Result<Self> {
         let mut table = Self::default();
         let mut count = None;
         for (i, text) in bytes.split(|&b| b == b'\n').enumerate() {
@@ -98,7 +80,8 @@ impl Table {
         Ok(())
     }
 
-    fn rows(&self) -> std::slice::ChunksExact<'_, f64> {
+    /// The numbers of each line.
+    pub fn rows(&self) -> std::slice::ChunksExact<'_, f64> {
         self.numbers.chunks_exact(self.width.max(1))
     }
 
@@ -109,7 +92,7 @@ impl Table {
     }
 
     /// What the columns after the first three mean.
-    fn layers(&self) -> Vec<Layer> {
+    pub fn layers(&self) -> Vec<Layer> {
         let mut layers = Vec::new();
         let mut column = 3;
         while column < self.width {
@@ -187,11 +170,13 @@ fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
         .filter(|word| !word.is_empty())
 }
 
-fn separates(byte: u8) -> bool {
+/// Whether a byte stands between words.
+pub(super) fn separates(byte: u8) -> bool {
     byte.is_ascii_whitespace() || byte == b',' || byte == b';'
 }
 
-fn is_number(word: &[u8]) -> bool {
+/// Whether a word is a number.
+pub(super) fn is_number(word: &[u8]) -> bool {
     str_of(word).is_some_and(|text| text.parse::<f64>().is_ok())
 }
 
@@ -204,105 +189,4 @@ fn whole(word: &[u8], line: usize) -> Result<u64> {
             "a line has at least x y z",
         )
     })
-}
-
-/// Whether a layer is written.
-fn holds(layer: &Layer) -> bool {
-    let Values::Rows { width, numbers } = &layer.values else {
-        return false;
-    };
-    let color = matches!(numbers.kind(), Kind::U8 | Kind::F32 | Kind::F64);
-    layer.on == On::Vertex
-        && match layer.role {
-            Role::Normal => *width == 3,
-            Role::Color(0) => *width == 3 && color,
-            Role::Other => *width == 1,
-            _ => false,
-        }
-}
-
-/// Writes the points with their normals, colours and further numbers. The names of the columns come
-/// first where a reader could not tell them.
-pub(super) fn encode(document: &Document, w: &mut dyn Write) -> Result<()> {
-    let layers: Vec<&Layer> = document.layers.iter().filter(|l| holds(l)).collect();
-    let table = table(document, &layers);
-    let told = table.layers();
-    let meaning = |l: &Layer| (l.role, l.name.clone(), l.values.width());
-    let clear = told
-        .iter()
-        .map(meaning)
-        .eq(layers.iter().map(|l| meaning(l)));
-    let text = || -> std::io::Result<()> {
-        let mut w = BufWriter::new(w);
-        if !clear {
-            writeln!(
-                w,
-                "x y z{}",
-                layers.iter().map(|l| names(l)).collect::<String>()
-            )?;
-        }
-        for row in table.rows() {
-            write!(w, "{} {} {}", row[0], row[1], row[2])?;
-            for value in &row[3..] {
-                write!(w, " {value}")?;
-            }
-            writeln!(w)?;
-        }
-        w.flush()
-    };
-    text().map_err(|e| Error::io("", e))
-}
-
-fn table(document: &Document, layers: &[&Layer]) -> Table {
-    let mut table = Table {
-        width: 3,
-        ..Table::default()
-    };
-    table.width += layers
-        .iter()
-        .filter_map(|l| l.values.width())
-        .sum::<usize>();
-    for (v, p) in document.mesh.positions.iter().enumerate() {
-        table.numbers.extend(p.iter());
-        for layer in layers {
-            let columns = 0..layer.values.width().unwrap_or(0);
-            table
-                .numbers
-                .extend(columns.filter_map(|k| layer.values.get(v, k)));
-        }
-    }
-    table
-}
-
-/// The names of a layer's columns, each after a blank.
-fn names(layer: &Layer) -> String {
-    match layer.role {
-        Role::Normal => format!(" {}", NORMAL.join(" ")),
-        Role::Color(_) => format!(" {}", COLOR.join(" ")),
-        _ => format!(" {}", word(&layer.name)),
-    }
-}
-
-/// A name as one word that is neither a number nor a comment.
-fn word(name: &str) -> String {
-    let plain = |c: char| {
-        if c.is_ascii() && (separates(c as u8) || c.is_control()) {
-            '_'
-        } else {
-            c
-        }
-    };
-    let name: String = name.chars().map(plain).collect();
-    let name = name.replace('#', "_").replace("//", "__");
-    if name.is_empty() || is_number(name.as_bytes()) {
-        return format!("_{name}");
-    }
-    name
-}
-
-/// What is lost in an XYZ file: the faces, and what is not a number per point.
-pub(super) fn losses(document: &Document) -> Vec<String> {
-    let faces = counted(document.mesh.polygons.len(), "face");
-    let layers = of_layers(document, holds);
-    faces.into_iter().chain(layers).collect()
 }
