@@ -153,3 +153,19 @@ fn clouds_of_the_collection() {
         assert_eq!(read(&written(&document)), document);
     }
 }
+
+#[test]
+fn any_byte_at_any_place_is_read_or_explained() {
+    let text = "2\nx,y z a nx ny nz\n# c\n1 2 3 4 0 0 1\n5 -6 7e1;8 1 0 0 // d\n";
+    for at in 0..text.len() {
+        for byte in 0..=255 {
+            let mut bytes = text.as_bytes().to_vec();
+            bytes[at] = byte;
+            if let Ok(document) = io::decode(bytes, Format::Xyz) {
+                let again = read(&written(&document));
+                assert_eq!(again.mesh.positions.len(), document.mesh.positions.len());
+                assert_eq!(again.layers.len(), document.layers.len(), "{at} {byte}");
+            }
+        }
+    }
+}
