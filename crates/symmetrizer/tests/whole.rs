@@ -39,6 +39,49 @@ fn dropped_output_leaves_nothing() {
     assert!(names(folder.path()).is_empty());
 }
 
+/// Where the system has unnamed files, not even a killed process leaves one.
+#[cfg(target_os = "linux")]
+#[test]
+fn reserved_files_have_no_name() {
+    // Not every file system that tests may run on can do this; the usual ones in memory can.
+    let Ok(folder) = tempfile::tempdir_in("/dev/shm") else {
+        return;
+    };
+    let path = folder.path().join("a.txt");
+    let mut output = Output::create(&path).unwrap();
+    say(&mut output, "half").unwrap();
+    assert!(names(folder.path()).is_empty());
+    output.commit().unwrap();
+    assert_eq!(names(folder.path()), [PathBuf::from("a.txt")]);
+}
+
+#[test]
+fn failure_leaves_the_target_as_it_was() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.txt");
+    fs::write(&path, "before").unwrap();
+    let mut output = Output::create(&path).unwrap();
+    say(&mut output, "half").unwrap();
+    let full = std::io::Error::from(std::io::ErrorKind::StorageFull);
+    output.write(|_| Err(Error::io("", full))).unwrap_err();
+    drop(output);
+    assert_eq!(fs::read_to_string(&path).unwrap(), "before");
+    assert_eq!(names(folder.path()), [PathBuf::from("a.txt")]);
+}
+
+/// The target is made a directory after the reservation, so that the rename fails.
+#[test]
+fn a_failing_commit_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.txt");
+    let mut output = Output::create(&path).unwrap();
+    say(&mut output, "new").unwrap();
+    fs::create_dir(&path).unwrap();
+    let error = output.commit().unwrap_err().to_string();
+    assert!(error.contains("a.txt: "), "{error}");
+    assert_eq!(names(folder.path()), [PathBuf::from("a.txt")]);
+}
+
 #[test]
 fn errors_of_the_content_get_the_path() {
     let folder = tempfile::tempdir().unwrap();

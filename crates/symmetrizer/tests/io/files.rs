@@ -81,6 +81,105 @@ fn paths_that_cannot_be_read() {
     );
 }
 
+/// Opening a pipe would wait for its other end, so these must be known without.
+#[cfg(unix)]
+#[test]
+fn what_is_no_regular_file_is_refused_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |path: &Path, part: &str| {
+        let message = io::read(path).unwrap_err().to_string();
+        assert!(message.contains(part), "{message:?} does not say {part:?}");
+        message
+    };
+    let fifo = folder.path().join("fifo.obj");
+    let made = std::process::Command::new("mkfifo").arg(&fifo).status();
+    assert!(made.unwrap().success());
+    let message = refused(&fifo, "this is a pipe");
+    assert!(message.contains("fifo.obj") && message.contains("to a file"));
+    let link = folder.path().join("link.obj");
+    std::os::unix::fs::symlink(&fifo, &link).unwrap();
+    refused(&link, "this is a pipe");
+    let socket = folder.path().join("socket.ply");
+    let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+    refused(&socket, "this is a socket");
+    refused(Path::new("/dev/zero"), "this is a device");
+    assert!(refused(Path::new("-"), "standard input").contains("to a file"));
+    refused(&folder.path().join("fifo.obj/a.obj"), "fifo.obj/a.obj: ");
+}
+
+#[test]
+fn files_from_4_gib_on_are_not_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("sparse.stl");
+    std::fs::File::create(&path)
+        .unwrap()
+        .set_len(1 << 32)
+        .unwrap();
+    let message = io::read(&path).unwrap_err().to_string();
+    assert!(
+        message.contains("sparse.stl: the file is larger than 4 GiB"),
+        "{message}"
+    );
+}
+
+#[cfg(unix)]
+#[test]
+#[allow(clippy::print_stderr)] // A test that does nothing must not look like one that passed.
+fn protected_files_are_not_read() {
+    use std::os::unix::fs::PermissionsExt;
+
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.obj");
+    std::fs::write(&path, "v 0 0 0").unwrap();
+    std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o000)).unwrap();
+    if std::fs::File::open(&path).is_ok() {
+        eprintln!("SKIPPED: the superuser may read everything");
+        return;
+    }
+    let error = io::read(&path).unwrap_err();
+    assert!(matches!(&error, Error::Io { path, .. } if path.ends_with("mine.obj")));
+}
+
+/// A disk with room for a few bytes.
+struct Full(usize);
+
+impl std::io::Write for Full {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        if self.0 == 0 {
+            return Err(std::io::ErrorKind::StorageFull.into());
+        }
+        let count = bytes.len().min(self.0);
+        self.0 -= count;
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn a_full_disk_is_an_error_in_every_format() {
+    for format in [
+        Format::Obj,
+        Format::Ply,
+        Format::Off,
+        Format::Stl,
+        Format::ThreeMf,
+        Format::Xyz,
+    ] {
+        let size = encoded(&pyramid(), format).len();
+        for room in [0, 1, size / 2, size - 1] {
+            let written = io::encode(&pyramid().into(), format, &mut Full(room));
+            assert!(
+                matches!(written, Err(Error::Io { .. })),
+                "{format:?} {room}"
+            );
+        }
+        io::encode(&pyramid().into(), format, &mut Full(size)).unwrap();
+    }
+}
+
 #[test]
 fn damaged_meshes_are_not_written() {
     let mut bad = pyramid();

@@ -50,4 +50,26 @@ pub struct GltfKept {}
 
 /// The rest of a 3MF file.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct ThreeMfKept {}
+pub struct ThreeMfKept {
+    /// The whole file.
+    pub package: Vec<u8>,
+    /// Where the vertices come from, in their order.
+    pub blocks: Vec<ThreeMfBlock>,
+    /// What the file says besides shapes, names and materials, in phrases such as "3 metadata
+    /// elements".
+    pub besides: Vec<String>,
+}
+
+/// A run of vertices: an object of a 3MF file at one of its places.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ThreeMfBlock {
+    /// The part of the package that has the object.
+    pub part: String,
+    /// The object's id in that part.
+    pub object: u32,
+    /// From the object's coordinates to those of the document, as the `transform` attribute has
+    /// it; `None` where they are the same.
+    pub transform: Option<String>,
+    /// How many vertices.
+    pub vertices: usize,
+}

@@ -19,7 +19,8 @@ pub(super) fn of_kept(document: &Document, format: Format) -> Vec<String> {
         }
         (Kept::Ply(_), _) => Vec::new(),
         (Kept::Gltf(_), _) => Vec::new(),
-        (Kept::ThreeMf(_), _) => Vec::new(),
+        (Kept::ThreeMf(_), Format::ThreeMf) => Vec::new(),
+        (Kept::ThreeMf(kept), _) => kept.besides.clone(),
     }
 }
 

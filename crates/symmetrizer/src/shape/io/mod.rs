@@ -4,12 +4,14 @@
 //! else the file says. What a format cannot hold is named by [`losses`], never dropped in silence.
 
 mod gltf;
+mod input;
 mod losses;
 mod obj;
 mod off;
 mod ply;
 mod ply_elements;
 mod stl;
+mod temporary;
 mod text;
 mod threemf;
 mod whole;
@@ -99,14 +101,29 @@ fn unknown_extension(path: &Path, extension: &str) -> Error {
 ///
 /// # Errors
 /// [`Error::Io`] where the file cannot be read; [`Error::Unsupported`] for an unknown extension;
-/// [`Error::Input`] with the place in the file where its content is damaged.
+/// [`Error::Input`] with the place in the file where its content is damaged, and at once for what
+/// is no regular file (a directory, pipe, socket or device) and for files from 4 GiB on.
 pub fn read(path: &Path) -> Result<Document> {
-    let format = Format::of_path(path);
-    if path.is_dir() {
-        return Err(Error::input("this is a directory", "name a mesh file in it").in_file(path));
-    }
-    let bytes = std::fs::read(path).map_err(|e| Error::io(path, e))?;
-    decode_beside(bytes, format?, path.parent(), Strictness::Refuse).map_err(|e| e.in_file(path))
+    read_with(path, Strictness::Refuse)
+}
+
+/// Reads the shape file `path` as [`read`] does, but keeps faces that cannot be used: with fewer
+/// than three corners, or with vertices that are not there. Only for finding out what is wrong.
+///
+/// # Errors
+/// As for [`read`], for all other damage.
+pub fn examine(path: &Path) -> Result<Document> {
+    read_with(path, Strictness::Keep)
+}
+
+fn read_with(path: &Path, strictness: Strictness) -> Result<Document> {
+    // Pipes and directories have no extension: what they are says more.
+    let format = match input::check(path) {
+        Err(error @ Error::Input { .. }) => return Err(error),
+        _ => Format::of_path(path)?,
+    };
+    let bytes = input::bytes(path)?;
+    decode_beside(bytes, format, path.parent(), strictness).map_err(|e| e.in_file(path))
 }
 
 /// The document in the bytes of a file that needs no other file.
@@ -147,12 +164,7 @@ fn decode_beside(
         ));
     }
     // A face corner takes at least a byte, so that below this limit every index fits in 32 bits.
-    if u32::try_from(bytes.len()).is_err() {
-        return Err(Error::input(
-            "the file is larger than 4 GiB",
-            "simplify the mesh first",
-        ));
-    }
+    input::check_size(bytes.len() as u64)?;
     let document = match format {
         Format::Obj => obj::decode(&bytes, strictness),
         Format::Ply => ply::decode(&bytes).map(Document::from),

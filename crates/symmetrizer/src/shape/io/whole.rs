@@ -1,20 +1,20 @@
 //! Whole-or-nothing output files: written beside their place, renamed into it when complete.
 
-use std::fs::{self, Metadata, OpenOptions};
+use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
-
+use super::temporary::Temporary;
 use crate::error::{Error, Result};
 
 /// An output file that is reserved before the slow work and appears when that has succeeded.
 ///
 /// Until [`Output::commit`] the target is as it was; dropped without it, nothing is left behind.
+/// Nor is it when the process is killed, on Linux and file systems with unnamed files.
 #[derive(Debug)]
 pub struct Output {
     target: PathBuf,
-    file: BufWriter<NamedTempFile>,
+    file: BufWriter<Temporary>,
 }
 
 impl Output {
@@ -29,7 +29,7 @@ impl Output {
         let replaced = replaced(&target).map_err(|e| e.in_file(path))?;
         let temporary = beside(&target).map_err(|e| e.in_file(path))?;
         if let Some(replaced) = replaced {
-            let permissions = temporary.as_file().set_permissions(replaced.permissions());
+            let permissions = temporary.file().set_permissions(replaced.permissions());
             permissions.map_err(|e| Error::io(path, e))?;
         }
         Ok(Self {
@@ -60,8 +60,10 @@ impl Output {
         let Self { target, file } = self;
         let complete = || -> std::io::Result<()> {
             let temporary = file.into_inner().map_err(|e| e.into_error())?;
-            temporary.as_file().sync_all()?;
-            temporary.persist(&target)?;
+            temporary.file().sync_all()?;
+            temporary.rename(folder(&target), &target)?;
+            // Without this a power cut may undo the rename. The file is in its place either way.
+            let _ = File::open(folder(&target)).and_then(|f| f.sync_all());
             Ok(())
         };
         complete().map_err(|e| Error::io(&target, e))
@@ -91,23 +93,24 @@ fn replaced(target: &Path) -> Result<Option<Metadata>> {
 }
 
 /// A temporary file in the directory of `target`, so that the rename stays on one disk.
-fn beside(target: &Path) -> Result<NamedTempFile> {
-    let directory = match target.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
+fn beside(target: &Path) -> Result<Temporary> {
     if target.file_name().is_none() {
         return Err(Error::input("this is not a file name", "name a file"));
     }
+    let directory = folder(target);
     if !directory.is_dir() {
         return Err(Error::input(
             format!("there is no directory {}", directory.display()),
             "create it first, or correct the path",
         ));
     }
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".symmetrizer-").suffix(".tmp");
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(directory).map_err(|e| Error::io("", e))
+    Temporary::create(directory).map_err(|e| Error::io("", e))
+}
+
+/// The directory of a file.
+fn folder(target: &Path) -> &Path {
+    match target.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
 }
