@@ -200,7 +200,7 @@ pub fn grouped(n: usize) -> String {
 }
 
 /// Four significant digits, plain where that is short.
-fn short(x: f64) -> String {
+pub fn short(x: f64) -> String {
     let size = x.abs();
     if size == 0.0 {
         "0".into()

@@ -16,4 +16,4 @@ pub use closest::{ClosestPoint, Hit};
 pub use document::Document;
 pub use mesh::Mesh;
 pub use surface::{Surface, SurfacePoint};
-pub use validate::Validation;
+pub use validate::{Findings, Validation};

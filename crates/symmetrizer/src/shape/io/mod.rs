@@ -101,12 +101,34 @@ fn unknown_extension(path: &Path, extension: &str) -> Error {
 /// [`Error::Io`] where the file cannot be read; [`Error::Unsupported`] for an unknown extension;
 /// [`Error::Input`] with the place in the file where its content is damaged.
 pub fn read(path: &Path) -> Result<Document> {
+    read_with(path, Check::Corners)
+}
+
+/// Reads the shape file `path` as [`read`] does, but accepts faces that cannot be used: with fewer
+/// than three corners, or with vertices that are not there. Only for finding out what is wrong.
+///
+/// # Errors
+/// As for [`read`], where not even the numbers can be made out.
+pub fn examine(path: &Path) -> Result<Document> {
+    read_with(path, Check::Nothing)
+}
+
+/// What must be right about the faces of a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Check {
+    /// At least three corners, of vertices that are there.
+    Corners,
+    /// Nothing.
+    Nothing,
+}
+
+fn read_with(path: &Path, check: Check) -> Result<Document> {
     let format = Format::of_path(path);
     if path.is_dir() {
         return Err(Error::input("this is a directory", "name a mesh file in it").in_file(path));
     }
     let bytes = std::fs::read(path).map_err(|e| Error::io(path, e))?;
-    decode_beside(bytes, format?, path.parent()).map_err(|e| e.in_file(path))
+    decode_beside(bytes, format?, path.parent(), check).map_err(|e| e.in_file(path))
 }
 
 /// The document in the bytes of a file that needs no other file.
@@ -114,11 +136,16 @@ pub fn read(path: &Path) -> Result<Document> {
 /// # Errors
 /// [`Error::Input`], as for [`read`] but without the file's name.
 pub fn decode(bytes: Vec<u8>, format: Format) -> Result<Document> {
-    decode_beside(bytes, format, None)
+    decode_beside(bytes, format, None, Check::Corners)
 }
 
 /// The document in the bytes of a file; the files it names are looked for in `folder`.
-fn decode_beside(bytes: Vec<u8>, format: Format, folder: Option<&Path>) -> Result<Document> {
+fn decode_beside(
+    bytes: Vec<u8>,
+    format: Format,
+    folder: Option<&Path>,
+    check: Check,
+) -> Result<Document> {
     if bytes.is_empty() {
         return Err(Error::input(
             "the file is empty",
@@ -141,7 +168,9 @@ fn decode_beside(bytes: Vec<u8>, format: Format, folder: Option<&Path>) -> Resul
         Format::ThreeMf => threemf::decode(bytes),
         Format::Xyz => xyz::decode(&bytes),
     }?;
-    document.mesh.check_corners()?;
+    if check == Check::Corners {
+        document.mesh.check_corners()?;
+    }
     Ok(document)
 }
 

@@ -1,0 +1,267 @@
+//! The kinds of findings and their words.
+
+use serde::Serialize;
+
+/// How much a finding matters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Severity {
+    /// A run cannot work on the file.
+    Refused,
+    /// A run mends it for its own work; the file keeps it.
+    Mended,
+    /// A run works with it as it is, but the result may surprise.
+    Note,
+    /// As it should be, or of no consequence.
+    Fine,
+}
+
+/// What can be found in a mesh. Faces "as welded" are those whose corners in equal places count as
+/// one corner, as they do in a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// There are no faces; the vertices are counted.
+    NoFaces,
+    /// There are faces, but none has an area.
+    NoSurface,
+    /// Faces that name vertices which are not there.
+    OutOfRange,
+    /// Faces with fewer than three corners.
+    TooFewCorners,
+    /// Vertices with a coordinate that is infinite or not a number.
+    NonFinite,
+    /// Faces with two corners in one place.
+    RepeatedCorner,
+    /// Faces with all corners on a line, to the rounding of the coordinates.
+    ZeroArea,
+    /// Faces as welded that are an earlier one again.
+    Duplicate,
+    /// Faces as welded that are an earlier one again, the other way round.
+    FlippedDuplicate,
+    /// Edges whose two faces run the same way along them.
+    Misoriented,
+    /// Used vertices in the same place as an earlier one.
+    SamePlace,
+    /// Components joined by edges that cannot be oriented, as a Moebius strip.
+    OneSided,
+    /// Closed components joined by edges whose volume is negative.
+    InsideOut,
+    /// Edges with more than two faces.
+    NonManifoldEdge,
+    /// Vertices whose faces do not hang together by edges.
+    NonManifoldVertex,
+    /// Rims of the surface, each all round.
+    Border,
+    /// Faces that pass through others with which they share no vertex.
+    Crossing,
+    /// Triangles that were too many to be looked at for crossings.
+    CrossingSkipped,
+    /// Components joined by vertices.
+    Component,
+    /// Those of them with less than a thousandth of the area.
+    TinyComponent,
+    /// Vertices that no face uses.
+    Loose,
+    /// Faces of four and more corners that bend by more than a hundredth of their size.
+    Bent,
+    /// Faces that overlap themselves when cut into triangles from their first corner.
+    Folded,
+    /// The whole stands far away from the origin in coordinates of few digits.
+    FarAway,
+    /// The whole is very small or very large.
+    ExtremeSize,
+    /// Faces with more than four corners.
+    Polygon,
+    /// Faces with four corners.
+    Quad,
+    /// All coordinates have the digits of single precision.
+    SinglePrecision,
+}
+
+impl Kind {
+    /// How much it matters, unless the finding says otherwise.
+    pub(super) fn severity(self) -> Severity {
+        match self {
+            Self::NoFaces | Self::NoSurface | Self::OutOfRange | Self::TooFewCorners => {
+                Severity::Refused
+            }
+            Self::NonFinite
+            | Self::RepeatedCorner
+            | Self::ZeroArea
+            | Self::Duplicate
+            | Self::FlippedDuplicate
+            | Self::Misoriented
+            | Self::SamePlace => Severity::Mended,
+            Self::Polygon | Self::Quad | Self::SinglePrecision | Self::ExtremeSize => {
+                Severity::Fine
+            }
+            _ => Severity::Note,
+        }
+    }
+
+    /// What is counted, and what the places are.
+    pub(super) fn units(self) -> (&'static str, &'static str) {
+        match self {
+            Self::NonFinite | Self::SamePlace | Self::NonManifoldVertex | Self::Loose => {
+                ("vertices", "vertices")
+            }
+            Self::NoFaces | Self::FarAway | Self::ExtremeSize | Self::SinglePrecision => {
+                ("vertices", "vertices")
+            }
+            Self::Misoriented | Self::NonManifoldEdge => ("edges", "edges"),
+            Self::Border => ("borders", "edges"),
+            Self::OneSided | Self::InsideOut | Self::Component | Self::TinyComponent => {
+                ("components", "faces")
+            }
+            Self::CrossingSkipped => ("triangles", "faces"),
+            _ => ("faces", "faces"),
+        }
+    }
+
+    /// What follows the count.
+    pub fn noun(self, count: usize) -> &'static str {
+        let [one, many] = self.nouns();
+        if count == 1 { one } else { many }
+    }
+
+    fn nouns(self) -> [&'static str; 2] {
+        match self {
+            Self::NoFaces => ["vertex and no face", "vertices and no face"],
+            Self::NoSurface => ["face, without area", "faces, none of them with an area"],
+            Self::OutOfRange => ["face with missing vertices", "faces with missing vertices"],
+            Self::TooFewCorners => ["face of too few corners", "faces of too few corners"],
+            Self::NonFinite => ["vertex without a place", "vertices without a place"],
+            Self::RepeatedCorner => ["face with a corner twice", "faces with a corner twice"],
+            Self::ZeroArea => ["face without area", "faces without area"],
+            Self::Duplicate => ["duplicate face", "duplicate faces"],
+            Self::FlippedDuplicate => ["duplicate face, flipped", "duplicate faces, flipped"],
+            Self::Misoriented => ["edge between flipped faces", "edges between flipped faces"],
+            Self::SamePlace => ["vertex in a place taken", "vertices in a place taken"],
+            Self::OneSided => ["one-sided part", "one-sided parts"],
+            Self::InsideOut => ["part inside out", "parts inside out"],
+            Self::NonManifoldEdge => [
+                "edge of three or more faces",
+                "edges of three or more faces",
+            ],
+            Self::NonManifoldVertex => ["pinched vertex", "pinched vertices"],
+            Self::Border => ["border", "borders"],
+            Self::Crossing => ["face through another", "faces through others"],
+            Self::CrossingSkipped => ["triangle not looked at", "triangles, too many to look at"],
+            Self::Component => ["connected part", "separate parts"],
+            Self::TinyComponent => ["tiny part", "tiny parts"],
+            Self::Loose => ["loose vertex", "loose vertices"],
+            Self::Bent => ["face that is not flat", "faces that are not flat"],
+            Self::Folded => ["face that folds over", "faces that fold over"],
+            Self::FarAway => ["vertex far from the origin", "vertices far from the origin"],
+            Self::ExtremeSize => ["vertex at an unusual scale", "vertices at an unusual scale"],
+            Self::Polygon => [
+                "face of five or more corners",
+                "faces of five or more corners",
+            ],
+            Self::Quad => ["face of four corners", "faces of four corners"],
+            Self::SinglePrecision => ["vertex in single precision", "vertices in single precision"],
+        }
+    }
+
+    /// What it means, in a sentence; empty where the finding has figures to tell instead.
+    pub(super) fn what(self) -> &'static str {
+        match self {
+            Self::NoFaces => "There are no faces, so there is no surface: a point cloud at best.",
+            Self::NoSurface => "No face that can be used has an area.",
+            Self::OutOfRange => "A corner names a vertex that the file does not have.",
+            Self::TooFewCorners => "A face needs at least three corners.",
+            Self::NonFinite => "A coordinate is infinite or not a number.",
+            Self::RepeatedCorner => "Two corners lie in the same place.",
+            Self::ZeroArea => "All corners lie on a line.",
+            Self::Duplicate => "The corners are those of an earlier face, in the same order.",
+            Self::FlippedDuplicate => {
+                "The corners are those of an earlier face in the opposite order: the back of it."
+            }
+            Self::Misoriented => {
+                "The faces on the two sides are wound in opposite senses: one shows its front \
+                 where the other shows its back."
+            }
+            Self::SamePlace => "An earlier vertex has exactly the same coordinates.",
+            Self::OneSided => "No choice of front and back fits all faces, as on a Moebius strip.",
+            Self::InsideOut => {
+                "The surface is closed and its fronts look inwards. Right for a hollow inside \
+                 another part, otherwise it is inside out."
+            }
+            Self::NonManifoldEdge => {
+                "More than two faces meet there, as where a wall meets a floor."
+            }
+            Self::NonManifoldVertex => {
+                "Two or more pieces of surface touch there in a single point, as the halves of an \
+                 hourglass."
+            }
+            Self::Crossing => "A face passes through another one that is not its neighbour.",
+            Self::CrossingSkipped => "Whether faces pass through each other was not looked at.",
+            Self::TinyComponent => "Each has less than a thousandth of the area.",
+            Self::Loose => "No face uses them.",
+            Self::Bent => "The corners are off a common plane by more than 1 % of the face's size.",
+            Self::Folded => {
+                "They are concave: cut into triangles from the first corner, the triangles overlap."
+            }
+            Self::Border
+            | Self::Component
+            | Self::FarAway
+            | Self::ExtremeSize
+            | Self::Polygon
+            | Self::Quad
+            | Self::SinglePrecision => "",
+        }
+    }
+
+    /// What a run does about it; follows "a run".
+    pub(super) fn action(self) -> &'static str {
+        match self {
+            Self::NoFaces => "refuses the file: a point cloud must be meshed first",
+            Self::NoSurface => {
+                "refuses the file: there is nothing to work on; check the coordinates"
+            }
+            Self::OutOfRange => "refuses the file: export it again, or remove these faces",
+            Self::TooFewCorners => "refuses the file: remove these faces",
+            Self::NonFinite => {
+                "works without the faces that touch them; the file keeps both as they are"
+            }
+            Self::RepeatedCorner => {
+                "works without what has no area of them; the file keeps the faces"
+            }
+            Self::ZeroArea => "gives them no weight, for they have no area; the file keeps them",
+            Self::Duplicate | Self::FlippedDuplicate => {
+                "works with the first of them only; the file keeps all"
+            }
+            Self::Misoriented => {
+                "turns faces for its own work until all neighbours agree; the file keeps the order \
+                 of corners"
+            }
+            Self::SamePlace => {
+                "takes them for one vertex and moves them together; the file keeps all"
+            }
+            Self::OneSided => "works on them, with a line along which front and back meet",
+            Self::InsideOut => "works on them as they are: it does not ask what is inside",
+            Self::NonManifoldEdge | Self::NonManifoldVertex => "keeps them joined as they are",
+            Self::Border => "keeps them: it closes no hole and matches no missing surface",
+            Self::Crossing | Self::CrossingSkipped => {
+                "works on them as they are; its report counts the crossings it adds"
+            }
+            Self::Component => "works on all of them together",
+            Self::TinyComponent => "moves them along with the rest; remove debris beforehand",
+            Self::Loose => "leaves them where they are",
+            Self::Bent | Self::Polygon | Self::Quad => {
+                "cuts them into triangles for its own work; the file keeps its faces"
+            }
+            Self::Folded => {
+                "works on the overlapping triangles; cut these faces beforehand for exact figures"
+            }
+            Self::FarAway => {
+                "works on what digits there are; move the shape to the origin at its source"
+            }
+            Self::ExtremeSize => "is not affected: it measures everything relative to the shape",
+            Self::SinglePrecision => {
+                "works in double precision, and a format that can writes the result so"
+            }
+        }
+    }
+}
