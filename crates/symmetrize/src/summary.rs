@@ -7,6 +7,8 @@ use symmetrizer::apply::measure::{AsymmetryReport, Distortion, PlaneReport};
 use symmetrizer::optimize::Step;
 use symmetrizer::report::{InputReport, RefusalReport, Report, ShapeReport, SymmetryReport};
 
+pub use symmetrizer::shape::validate::grouped;
+
 /// Refused modes listed at the most; the report has them all.
 const REFUSED: usize = 8;
 
@@ -184,19 +186,6 @@ fn outcome(outcome: Outcome) -> &'static str {
         Outcome::StepLimit => "step limit reached: a merge did not close (optimize.merge_steps)",
         Outcome::NoSymmetry => "no symmetry found",
     }
-}
-
-/// 12345 as 12,345.
-pub fn grouped(n: usize) -> String {
-    let digits = n.to_string();
-    let mut text = String::new();
-    for (i, c) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(c);
-    }
-    text
 }
 
 /// Four significant digits, plain where that is short.

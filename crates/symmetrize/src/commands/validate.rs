@@ -68,10 +68,18 @@ fn text(found: &Findings, name: &str) -> String {
         text += &extent(size);
     }
     text += "\n";
-    for finding in &found.findings {
+    let (fine, told): (Vec<&Finding>, Vec<&Finding>) = found
+        .findings
+        .iter()
+        .partition(|f| f.severity == Severity::Fine);
+    for finding in told {
         text += &entry(finding);
     }
-    text + &verdict(found)
+    let fine: Vec<String> = fine.into_iter().map(Finding::title).collect();
+    if !fine.is_empty() {
+        text += &format!("{:<INDENT$}{}\n", "fine", fine.join(", "));
+    }
+    text + "\n" + &verdict(found)
 }
 
 fn extent(size: &Size) -> String {
@@ -85,13 +93,13 @@ fn extent(size: &Size) -> String {
 
 /// A line with count and places, then sentences.
 fn entry(finding: &Finding) -> String {
-    let noun = finding.kind.noun(finding.count);
-    let title = format!("{} {noun}", grouped(finding.count));
-    let places = places(finding);
-    let severity = severity(finding.severity);
-    let mut text = format!("{severity:<INDENT$}{title:<38}{places}\n");
-    text.truncate(text.trim_end().len());
-    text += "\n";
+    let line = format!(
+        "{:<INDENT$}{:<36}{}",
+        severity(finding.severity),
+        finding.title(),
+        places(finding)
+    );
+    let mut text = format!("{}\n", line.trim_end());
     let run = format!("A run {}.", finding.action);
     for sentence in [&finding.what, &run] {
         text += &wrapped(sentence);
@@ -136,14 +144,11 @@ fn places(finding: &Finding) -> String {
 }
 
 fn verdict(found: &Findings) -> String {
-    let refusals: Vec<String> = found
-        .refusals()
-        .map(|f| format!("{} {}", grouped(f.count), f.kind.noun(f.count)))
-        .collect();
+    let refusals: Vec<String> = found.refusals().map(Finding::title).collect();
     if refusals.is_empty() {
-        "\na run works on this file\n".to_owned()
+        "a run works on this file\n".to_owned()
     } else {
-        format!("\na run refuses this file: {}\n", refusals.join("; "))
+        format!("a run refuses this file: {}\n", refusals.join("; "))
     }
 }
 

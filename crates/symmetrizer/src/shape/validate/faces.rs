@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::finding::{Finding, Tally};
+use super::finding::{Finding, Tally, grouped};
 use super::kind::{Kind, Severity};
 use super::places;
 use crate::geom::Vector;
@@ -62,6 +62,11 @@ impl<'a> Faces<'a> {
     /// Whether nothing is wrong with face `f`.
     pub fn is_sound(&self, f: usize) -> bool {
         self.faults[f].is_none()
+    }
+
+    /// Whether face `f` is sound but for a corner that it has twice.
+    pub fn can_be_cut(&self, f: usize) -> bool {
+        matches!(self.faults[f], None | Some(Kind::RepeatedCorner))
     }
 
     /// The vertices that faces name.
@@ -133,6 +138,7 @@ impl<'a> Faces<'a> {
         let broken = positions.filter(|(_, p)| !is_finite(p));
         let found = Finding::new(Kind::NonFinite, broken.map(|(v, _)| v as u32).collect());
         match self.with_fault(Kind::NonFinite).count {
+            0 if found.count == 0 => found,
             0 => Finding {
                 severity: Severity::Note,
                 action: Kind::Loose.action().to_owned(),
@@ -140,7 +146,7 @@ impl<'a> Faces<'a> {
             }
             .adding("No face touches such a vertex."),
             1 => found.adding("One face touches such a vertex."),
-            n => found.adding(&format!("{n} faces touch such a vertex.")),
+            n => found.adding(&format!("{} faces touch such a vertex.", grouped(n))),
         }
     }
 

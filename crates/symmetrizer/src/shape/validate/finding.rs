@@ -62,10 +62,28 @@ impl Finding {
         self
     }
 
-    /// The count with its noun: "1 duplicate face", "50 duplicate faces"; digits are not grouped.
+    /// The count with its noun, "1 duplicate face", or the noun alone for the whole: "no faces".
     pub fn title(&self) -> String {
-        format!("{} {}", self.count, self.kind.noun(self.count))
+        let noun = self.kind.noun(self.count);
+        if self.kind.is_whole() {
+            noun.to_owned()
+        } else {
+            format!("{} {noun}", grouped(self.count))
+        }
     }
+}
+
+/// 12345 as 12,345.
+pub fn grouped(n: usize) -> String {
+    let digits = n.to_string();
+    let mut text = String::new();
+    for (i, c) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(c);
+    }
+    text
 }
 
 /// A count with the first few places.

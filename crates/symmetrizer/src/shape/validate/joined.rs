@@ -2,7 +2,7 @@
 
 use super::edges::{Side, components, edges, odd_edges, sides, vertex};
 use super::faces::Faces;
-use super::finding::{Finding, Tally};
+use super::finding::{Finding, Tally, grouped};
 use super::kind::{Kind, Severity};
 use super::sets::Sets;
 use crate::geom::Point;
@@ -65,16 +65,21 @@ impl<'a> Joined<'a> {
             odd_edges(&sides(&self.faces.as_filed)).0,
             odd_edges(&self.sides).0,
         ];
-        let closed = match (open.saturating_sub(left), left) {
-            (0, _) => "The faces around them are joined all the same.".to_owned(),
+        let joined = match (open.saturating_sub(left), left) {
+            (0, _) => "No open edge closes by taking them for one.".to_owned(),
             (n, 0) => format!(
-                "The faces around them are not joined in the file: that leaves {n} open edges, all of which close when the vertices count as one."
+                "The faces around them are not joined in the file: that leaves {} open edges, all \
+                 of which close when the vertices count as one.",
+                grouped(n)
             ),
             (n, _) => format!(
-                "The faces around them are not joined in the file: of its {open} open edges {n} close when the vertices count as one."
+                "The faces around them are not joined in the file: of its {} open edges {} close \
+                 when the vertices count as one.",
+                grouped(open),
+                grouped(n)
             ),
         };
-        found.adding(&closed)
+        found.adding(&joined)
     }
 
     fn misoriented(&self) -> Finding {
@@ -192,12 +197,16 @@ impl<'a> Joined<'a> {
             }
             *length += 1;
         }
-        let found = Finding::new(Kind::Border, tally.into_iter().collect());
+        if rim.is_empty() {
+            let vertices = Tally::of(self.faces.mesh.positions.len());
+            return Finding::new(Kind::Closed, vertices);
+        }
         let longest = length.into_iter().max().unwrap_or(0);
-        let edges = rim.len();
-        found.adding(&format!(
-            "{edges} edges have a face on one side only: the rim of an open surface, or holes in \
-             it; the longest border has {longest}."
+        Finding::new(Kind::Border, tally.into_iter().collect()).adding(&format!(
+            "{} edges have a face on one side only: the rim of an open surface, or holes in it; \
+             the longest border has {}.",
+            grouped(rim.len()),
+            grouped(longest)
         ))
     }
 
@@ -223,8 +232,9 @@ impl<'a> Joined<'a> {
         } else {
             let largest = sizes.iter().max().copied().unwrap_or(0);
             parts = parts.adding(&format!(
-                "No vertex joins one to another. The largest has {largest} of the {} faces.",
-                sizes.iter().sum::<usize>()
+                "No vertex joins one to another. The largest has {} of the {} faces.",
+                grouped(largest),
+                grouped(sizes.iter().sum())
             ));
         }
         [

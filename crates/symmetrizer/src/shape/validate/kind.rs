@@ -21,7 +21,7 @@ pub enum Severity {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
-    /// There are no faces; the vertices are counted.
+    /// There are no faces. Of this and other kinds that concern the whole, the vertices are counted.
     NoFaces,
     /// There are faces, but none has an area.
     NoSurface,
@@ -53,6 +53,8 @@ pub enum Kind {
     NonManifoldVertex,
     /// Rims of the surface, each all round.
     Border,
+    /// There is no rim: every edge has a face on both sides.
+    Closed,
     /// Faces that pass through others with which they share no vertex.
     Crossing,
     /// Triangles that were too many to be looked at for crossings.
@@ -93,11 +95,26 @@ impl Kind {
             | Self::FlippedDuplicate
             | Self::Misoriented
             | Self::SamePlace => Severity::Mended,
-            Self::Polygon | Self::Quad | Self::SinglePrecision | Self::ExtremeSize => {
-                Severity::Fine
-            }
+            Self::Polygon
+            | Self::Quad
+            | Self::SinglePrecision
+            | Self::ExtremeSize
+            | Self::Closed => Severity::Fine,
             _ => Severity::Note,
         }
+    }
+
+    /// Whether it concerns the whole shape and is not a number of things in it.
+    pub fn is_whole(self) -> bool {
+        matches!(
+            self,
+            Self::NoFaces
+                | Self::NoSurface
+                | Self::Closed
+                | Self::FarAway
+                | Self::ExtremeSize
+                | Self::SinglePrecision
+        )
     }
 
     /// What is counted, and what the places are.
@@ -106,9 +123,7 @@ impl Kind {
             Self::NonFinite | Self::SamePlace | Self::NonManifoldVertex | Self::Loose => {
                 ("vertices", "vertices")
             }
-            Self::NoFaces | Self::FarAway | Self::ExtremeSize | Self::SinglePrecision => {
-                ("vertices", "vertices")
-            }
+            _ if self.is_whole() => ("vertices", "vertices"),
             Self::Misoriented | Self::NonManifoldEdge => ("edges", "edges"),
             Self::Border => ("borders", "edges"),
             Self::OneSided | Self::InsideOut | Self::Component | Self::TinyComponent => {
@@ -119,7 +134,7 @@ impl Kind {
         }
     }
 
-    /// What follows the count.
+    /// What follows the count; for the whole, a name without a count.
     pub fn noun(self, count: usize) -> &'static str {
         let [one, many] = self.nouns();
         if count == 1 { one } else { many }
@@ -127,8 +142,8 @@ impl Kind {
 
     fn nouns(self) -> [&'static str; 2] {
         match self {
-            Self::NoFaces => ["vertex and no face", "vertices and no face"],
-            Self::NoSurface => ["face, without area", "faces, none of them with an area"],
+            Self::NoFaces => ["no faces"; 2],
+            Self::NoSurface => ["no area"; 2],
             Self::OutOfRange => ["face with missing vertices", "faces with missing vertices"],
             Self::TooFewCorners => ["face of too few corners", "faces of too few corners"],
             Self::NonFinite => ["vertex without a place", "vertices without a place"],
@@ -153,14 +168,15 @@ impl Kind {
             Self::Loose => ["loose vertex", "loose vertices"],
             Self::Bent => ["face that is not flat", "faces that are not flat"],
             Self::Folded => ["face that folds over", "faces that fold over"],
-            Self::FarAway => ["vertex far from the origin", "vertices far from the origin"],
-            Self::ExtremeSize => ["vertex at an unusual scale", "vertices at an unusual scale"],
+            Self::FarAway => ["far from the origin"; 2],
+            Self::ExtremeSize => ["unusual scale"; 2],
             Self::Polygon => [
                 "face of five or more corners",
                 "faces of five or more corners",
             ],
             Self::Quad => ["face of four corners", "faces of four corners"],
-            Self::SinglePrecision => ["vertex in single precision", "vertices in single precision"],
+            Self::SinglePrecision => ["single precision"; 2],
+            Self::Closed => ["closed surface"; 2],
         }
     }
 
@@ -197,19 +213,22 @@ impl Kind {
             }
             Self::Crossing => "A face passes through another one that is not its neighbour.",
             Self::CrossingSkipped => "Whether faces pass through each other was not looked at.",
-            Self::TinyComponent => "Each has less than a thousandth of the area.",
-            Self::Loose => "No face uses them.",
+            Self::TinyComponent => "Less than a thousandth of the area each.",
+            Self::Loose => "No face uses such a vertex.",
             Self::Bent => "The corners are off a common plane by more than 1 % of the face's size.",
             Self::Folded => {
-                "They are concave: cut into triangles from the first corner, the triangles overlap."
+                "Concave: cut into triangles from its first corner, the triangles overlap."
             }
             Self::Border
             | Self::Component
             | Self::FarAway
             | Self::ExtremeSize
             | Self::Polygon
-            | Self::Quad
-            | Self::SinglePrecision => "",
+            | Self::Quad => "",
+            Self::Closed => "Every edge has a face on both sides.",
+            Self::SinglePrecision => {
+                "All coordinates have about seven digits, as many as single precision holds."
+            }
         }
     }
 
@@ -217,50 +236,50 @@ impl Kind {
     pub(super) fn action(self) -> &'static str {
         match self {
             Self::NoFaces => "refuses the file: a point cloud must be meshed first",
-            Self::NoSurface => {
-                "refuses the file: there is nothing to work on; check the coordinates"
-            }
-            Self::OutOfRange => "refuses the file: export it again, or remove these faces",
-            Self::TooFewCorners => "refuses the file: remove these faces",
+            Self::NoSurface => "refuses the file: check its coordinates",
+            Self::OutOfRange => "refuses the file: export it again, or remove such faces",
+            Self::TooFewCorners => "refuses the file: remove such faces",
             Self::NonFinite => {
-                "works without the faces that touch them; the file keeps both as they are"
+                "works without the faces that touch such a vertex; the file keeps both as they are"
             }
-            Self::RepeatedCorner => {
-                "works without what has no area of them; the file keeps the faces"
+            Self::RepeatedCorner => "leaves out the parts without area; the file keeps the face",
+            Self::ZeroArea => {
+                "gives such a face no weight, for it has no area; the file keeps the face"
             }
-            Self::ZeroArea => "gives them no weight, for they have no area; the file keeps them",
             Self::Duplicate | Self::FlippedDuplicate => {
-                "works with the first of them only; the file keeps all"
+                "works with the first of such faces only; the file keeps all"
             }
             Self::Misoriented => {
-                "turns faces for its own work until all neighbours agree; the file keeps the order \
-                 of corners"
+                "turns faces for its own work until neighbours agree; the file keeps the order of \
+                 corners"
             }
             Self::SamePlace => {
-                "takes them for one vertex and moves them together; the file keeps all"
+                "takes vertices in one place for one and moves them together; the file keeps all"
             }
-            Self::OneSided => "works on them, with a line along which front and back meet",
-            Self::InsideOut => "works on them as they are: it does not ask what is inside",
-            Self::NonManifoldEdge | Self::NonManifoldVertex => "keeps them joined as they are",
-            Self::Border => "keeps them: it closes no hole and matches no missing surface",
+            Self::OneSided => "works on it, with a line along which front and back meet",
+            Self::InsideOut => "does not ask what is inside and works on it as it is",
+            Self::NonManifoldEdge | Self::NonManifoldVertex => {
+                "keeps the faces joined there as they are"
+            }
+            Self::Border | Self::Closed => "closes no hole and makes none",
             Self::Crossing | Self::CrossingSkipped => {
-                "works on them as they are; its report counts the crossings it adds"
+                "leaves crossings as they are; its report counts those it adds"
             }
-            Self::Component => "works on all of them together",
-            Self::TinyComponent => "moves them along with the rest; remove debris beforehand",
-            Self::Loose => "leaves them where they are",
+            Self::Component => "works on all parts together",
+            Self::TinyComponent => "moves tiny parts along with the rest; remove debris beforehand",
+            Self::Loose => "leaves loose vertices where they are",
             Self::Bent | Self::Polygon | Self::Quad => {
-                "cuts them into triangles for its own work; the file keeps its faces"
+                "cuts such a face into triangles for its own work; the file keeps the face"
             }
             Self::Folded => {
-                "works on the overlapping triangles; cut these faces beforehand for exact figures"
+                "works on the overlapping triangles; cut such faces beforehand for exact figures"
             }
             Self::FarAway => {
-                "works on what digits there are; move the shape to the origin at its source"
+                "works with the digits there are; move the shape to the origin at its source"
             }
-            Self::ExtremeSize => "is not affected: it measures everything relative to the shape",
+            Self::ExtremeSize => "measures everything relative to the shape and is not affected",
             Self::SinglePrecision => {
-                "works in double precision, and a format that can writes the result so"
+                "works in double precision, and a format that can hold it writes the result so"
             }
         }
     }

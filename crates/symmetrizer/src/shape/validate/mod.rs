@@ -19,7 +19,7 @@ use serde::Serialize;
 use crate::shape::mesh::Mesh;
 use crate::shape::surface::Working;
 
-pub use finding::{FIRST, Finding, Place};
+pub use finding::{FIRST, Finding, Place, grouped};
 pub use findings::Findings;
 pub use kind::{Kind, Severity};
 pub use size::Size;

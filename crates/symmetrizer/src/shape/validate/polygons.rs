@@ -23,7 +23,7 @@ pub(super) fn findings(faces: &Faces<'_>) -> Vec<Finding> {
     let corners = |f: usize| -> Option<Vec<Point>> {
         let polygon = polygons.get(f);
         let positions = polygon.iter().map(|&v| faces.mesh.positions[v as usize]);
-        (polygon.len() > 3 && faces.is_sound(f)).then(|| positions.collect())
+        (polygon.len() > 3 && faces.can_be_cut(f)).then(|| positions.collect())
     };
     vec![
         Finding::new(Kind::Bent, of(&|f| corners(f).is_some_and(|c| is_bent(&c)))),

@@ -71,12 +71,11 @@ impl Size {
             found.push(self.far_away(diagonals, count));
         }
         if self.diagonal > 0.0 && !USUAL.contains(&self.diagonal) {
-            let what = format!("The bounding-box diagonal is {:e} units.", self.diagonal);
+            let what = format!("The bounding-box diagonal is {:.3e} units.", self.diagonal);
             found.push(Finding::new(Kind::ExtremeSize, Tally::of(count)).adding(&what));
         }
         if self.single_precision {
-            let what = "All coordinates have about seven digits, as single precision holds.";
-            found.push(Finding::new(Kind::SinglePrecision, Tally::of(count)).adding(what));
+            found.push(Finding::new(Kind::SinglePrecision, Tally::of(count)));
         }
         found
     }
@@ -84,7 +83,7 @@ impl Size {
     fn far_away(&self, diagonals: f64, count: usize) -> Finding {
         let finding = Finding::new(Kind::FarAway, Tally::of(count));
         let away =
-            format!("The shape stands {diagonals:.0} times its own size away from the origin");
+            format!("The shape stands {diagonals:.1e} times its own size away from the origin");
         if self.single_precision {
             return finding.adding(&format!(
                 "{away}, in coordinates of single precision: most of their digits say where it \
