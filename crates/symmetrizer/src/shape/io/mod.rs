@@ -101,34 +101,25 @@ fn unknown_extension(path: &Path, extension: &str) -> Error {
 /// [`Error::Io`] where the file cannot be read; [`Error::Unsupported`] for an unknown extension;
 /// [`Error::Input`] with the place in the file where its content is damaged.
 pub fn read(path: &Path) -> Result<Document> {
-    read_with(path, Check::Corners)
+    read_with(path, Strictness::Refuse)
 }
 
-/// Reads the shape file `path` as [`read`] does, but accepts faces that cannot be used: with fewer
+/// Reads the shape file `path` as [`read`] does, but keeps faces that cannot be used: with fewer
 /// than three corners, or with vertices that are not there. Only for finding out what is wrong.
 ///
 /// # Errors
-/// As for [`read`], where not even the numbers can be made out.
+/// As for [`read`], for all other damage.
 pub fn examine(path: &Path) -> Result<Document> {
-    read_with(path, Check::Nothing)
+    read_with(path, Strictness::Keep)
 }
 
-/// What must be right about the faces of a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Check {
-    /// At least three corners, of vertices that are there.
-    Corners,
-    /// Nothing.
-    Nothing,
-}
-
-fn read_with(path: &Path, check: Check) -> Result<Document> {
+fn read_with(path: &Path, strictness: Strictness) -> Result<Document> {
     let format = Format::of_path(path);
     if path.is_dir() {
         return Err(Error::input("this is a directory", "name a mesh file in it").in_file(path));
     }
     let bytes = std::fs::read(path).map_err(|e| Error::io(path, e))?;
-    decode_beside(bytes, format?, path.parent(), check).map_err(|e| e.in_file(path))
+    decode_beside(bytes, format?, path.parent(), strictness).map_err(|e| e.in_file(path))
 }
 
 /// The document in the bytes of a file that needs no other file.
@@ -136,7 +127,23 @@ fn read_with(path: &Path, check: Check) -> Result<Document> {
 /// # Errors
 /// [`Error::Input`], as for [`read`] but without the file's name.
 pub fn decode(bytes: Vec<u8>, format: Format) -> Result<Document> {
-    decode_beside(bytes, format, None, Check::Corners)
+    decode_beside(bytes, format, None, Strictness::Refuse)
+}
+
+/// What reading does with faces that name vertices which are not there, or have fewer than three
+/// corners.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Strictness {
+    /// Fails, and names the first.
+    Refuse,
+    /// Keeps them.
+    Keep,
+}
+
+impl Strictness {
+    fn refuses(self) -> bool {
+        self == Self::Refuse
+    }
 }
 
 /// The document in the bytes of a file; the files it names are looked for in `folder`.
@@ -144,7 +151,7 @@ fn decode_beside(
     bytes: Vec<u8>,
     format: Format,
     folder: Option<&Path>,
-    check: Check,
+    strictness: Strictness,
 ) -> Result<Document> {
     if bytes.is_empty() {
         return Err(Error::input(
@@ -168,7 +175,7 @@ fn decode_beside(
         Format::ThreeMf => threemf::decode(bytes),
         Format::Xyz => xyz::decode(&bytes),
     }?;
-    if check == Check::Corners {
+    if strictness.refuses() {
         document.mesh.check_corners()?;
     }
     Ok(document)

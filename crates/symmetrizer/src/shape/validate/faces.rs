@@ -1,25 +1,29 @@
 //! The faces of a mesh, one by one: which can be used, and what is wrong with the others.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 
 use super::finding::{Finding, Tally, grouped};
 use super::kind::{Kind, Severity};
 use super::places;
 use crate::geom::Vector;
-use crate::shape::mesh::{Mesh, is_finite};
+use crate::shape::mesh::{Mesh, Polygons, is_finite};
 
 /// The faces of a mesh sorted by what is wrong with them, and the triangles of those that are
 /// joined to a surface.
 pub(super) struct Faces<'a> {
     pub mesh: &'a Mesh,
+    /// All triangles of the faces whose corners are there, with their faces.
+    pub cut: Vec<([u32; 3], u32)>,
     /// The kind of what is wrong with each face: the first in the order of [`FAULTS`].
     faults: Vec<Option<Kind>>,
     /// Whether a corner names the vertex.
     used: Vec<bool>,
     /// The vertex that each vertex counts for: the first of the used ones in its place.
     pub places: Vec<u32>,
-    /// The surface, with its corners as places: no triangle has two in one place, none is there
-    /// twice.
+    /// The surface as a run sees it, with its corners as places: no triangle has two in one place,
+    /// none is there twice.
     pub triangles: Vec<[u32; 3]>,
     /// The same triangles with the vertices that the file names.
     pub as_filed: Vec<[u32; 3]>,
@@ -28,12 +32,13 @@ pub(super) struct Faces<'a> {
 }
 
 /// What can be wrong with a face; each face counts under the first that applies.
-const FAULTS: [Kind; 6] = [
+const FAULTS: [Kind; 7] = [
     Kind::OutOfRange,
     Kind::TooFewCorners,
     Kind::RepeatedCorner,
     Kind::Duplicate,
     Kind::FlippedDuplicate,
+    Kind::Overlap,
     Kind::ZeroArea,
 ];
 
@@ -42,6 +47,7 @@ impl<'a> Faces<'a> {
     pub fn new(mesh: &'a Mesh) -> Self {
         let mut faces = Self {
             mesh,
+            cut: Vec::new(),
             faults: mesh.polygons.iter().map(|p| unusable(mesh, p)).collect(),
             used: used(mesh),
             places: Vec::new(),
@@ -54,8 +60,8 @@ impl<'a> Faces<'a> {
         for (face, kind) in super::duplicates::find(&faces) {
             faces.faults[face as usize] = Some(kind);
         }
-        faces.find_flat();
         faces.cut();
+        faces.find_flat();
         faces
     }
 
@@ -98,22 +104,53 @@ impl<'a> Faces<'a> {
             });
     }
 
+    /// Cuts the faces into triangles and keeps those that a run works on.
     fn cut(&mut self) {
-        for (corners, face) in self.mesh.triangles() {
-            let joined = matches!(
-                self.faults[face as usize],
-                None | Some(Kind::RepeatedCorner | Kind::ZeroArea)
-            );
-            if !joined {
-                continue;
-            }
-            let [a, b, c] = corners.map(|v| self.places[v as usize]);
-            if a != b && b != c && c != a {
-                self.triangles.push([a, b, c]);
-                self.as_filed.push(corners);
-                self.face_of.push(face);
+        self.cut = self.with_corners().triangles().collect();
+        let place = |v: u32| self.places[v as usize];
+        let finite = |v: &u32| is_finite(&self.mesh.positions[*v as usize]);
+        let mut kept = Vec::with_capacity(self.cut.len());
+        for (i, (corners, _)) in (0_u32..).zip(&self.cut) {
+            let [a, b, c] = corners.map(place);
+            if corners.iter().all(finite) && a != b && b != c && c != a {
+                let mut sorted = [a, b, c];
+                sorted.sort_unstable();
+                kept.push((sorted, i));
             }
         }
+        kept.par_sort_unstable();
+        for same in kept.chunk_by(|a, b| a.0 == b.0) {
+            for (_, again) in &same[1..] {
+                let face = self.cut[*again as usize].1;
+                self.faults[face as usize].get_or_insert(Kind::Overlap);
+            }
+        }
+        kept.dedup_by_key(|(corners, _)| *corners);
+        kept.par_sort_unstable_by_key(|(_, i)| *i);
+        for (_, i) in kept {
+            let (corners, face) = self.cut[i as usize];
+            self.triangles.push(corners.map(place));
+            self.as_filed.push(corners);
+            self.face_of.push(face);
+        }
+    }
+
+    /// The mesh with faces emptied that cannot be cut: their corners are not there or too few.
+    fn with_corners(&self) -> Cow<'a, Mesh> {
+        let lacking = |f: usize| {
+            let fault = self.faults[f];
+            matches!(fault, Some(Kind::OutOfRange | Kind::TooFewCorners))
+        };
+        let polygons = self.mesh.polygons.iter().enumerate();
+        if !(0..self.faults.len()).any(lacking) {
+            return Cow::Borrowed(self.mesh);
+        }
+        let mut emptied = Polygons::default();
+        polygons.for_each(|(f, p)| emptied.push(if lacking(f) { &[] } else { p }));
+        Cow::Owned(Mesh {
+            positions: self.mesh.positions.clone(),
+            polygons: emptied,
+        })
     }
 
     /// The findings on faces and vertices one by one.

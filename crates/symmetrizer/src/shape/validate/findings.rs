@@ -46,7 +46,7 @@ impl Findings {
         }
         let empty = |f: &Finding| f.count == 0 && f.kind != Kind::NoFaces;
         found.retain(|f| !empty(f));
-        found.sort_by_key(|f| f.severity);
+        found.sort_by_key(|f| (f.severity, f.kind));
         Self {
             vertices: mesh.positions.len(),
             faces: mesh.polygons.len(),

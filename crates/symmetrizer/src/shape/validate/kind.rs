@@ -17,8 +17,8 @@ pub enum Severity {
 }
 
 /// What can be found in a mesh. Faces "as welded" are those whose corners in equal places count as
-/// one corner, as they do in a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+/// one corner, as they do in a run. Those of one severity are told in this order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// There are no faces. Of this and other kinds that concern the whole, the vertices are counted.
@@ -39,6 +39,8 @@ pub enum Kind {
     Duplicate,
     /// Faces as welded that are an earlier one again, the other way round.
     FlippedDuplicate,
+    /// Faces, else sound, one of whose triangles is that of an earlier face.
+    Overlap,
     /// Edges whose two faces run the same way along them.
     Misoriented,
     /// Used vertices in the same place as an earlier one.
@@ -67,7 +69,7 @@ pub enum Kind {
     Loose,
     /// Faces of four and more corners that bend by more than a hundredth of their size.
     Bent,
-    /// Faces that overlap themselves when cut into triangles from their first corner.
+    /// Faces that overlap themselves when cut into triangles.
     Folded,
     /// The whole stands far away from the origin in coordinates of few digits.
     FarAway,
@@ -93,6 +95,7 @@ impl Kind {
             | Self::ZeroArea
             | Self::Duplicate
             | Self::FlippedDuplicate
+            | Self::Overlap
             | Self::Misoriented
             | Self::SamePlace => Severity::Mended,
             Self::Polygon
@@ -151,6 +154,7 @@ impl Kind {
             Self::ZeroArea => ["face without area", "faces without area"],
             Self::Duplicate => ["duplicate face", "duplicate faces"],
             Self::FlippedDuplicate => ["duplicate face, flipped", "duplicate faces, flipped"],
+            Self::Overlap => ["face on top of another", "faces on top of others"],
             Self::Misoriented => ["edge between flipped faces", "edges between flipped faces"],
             Self::SamePlace => ["vertex in a place taken", "vertices in a place taken"],
             Self::OneSided => ["one-sided part", "one-sided parts"],
@@ -194,6 +198,7 @@ impl Kind {
             Self::FlippedDuplicate => {
                 "The corners are those of an earlier face in the opposite order: the back of it."
             }
+            Self::Overlap => "Three of the corners are a triangle of an earlier face too.",
             Self::Misoriented => {
                 "The faces on the two sides are wound in opposite senses: one shows its front \
                  where the other shows its back."
@@ -217,7 +222,7 @@ impl Kind {
             Self::Loose => "No face uses such a vertex.",
             Self::Bent => "The corners are off a common plane by more than 1 % of the face's size.",
             Self::Folded => {
-                "Concave: cut into triangles from its first corner, the triangles overlap."
+                "Cut into triangles, such a face lies on top of itself: it is not flat or crosses itself."
             }
             Self::Border
             | Self::Component
@@ -240,14 +245,14 @@ impl Kind {
             Self::OutOfRange => "refuses the file: export it again, or remove such faces",
             Self::TooFewCorners => "refuses the file: remove such faces",
             Self::NonFinite => {
-                "works without the faces that touch such a vertex; the file keeps both as they are"
+                "works without the triangles at such a vertex; the file keeps everything as it is"
             }
             Self::RepeatedCorner => "leaves out the parts without area; the file keeps the face",
             Self::ZeroArea => {
                 "gives such a face no weight, for it has no area; the file keeps the face"
             }
-            Self::Duplicate | Self::FlippedDuplicate => {
-                "works with the first of such faces only; the file keeps all"
+            Self::Duplicate | Self::FlippedDuplicate | Self::Overlap => {
+                "works with the first of equal triangles only; the file keeps all"
             }
             Self::Misoriented => {
                 "turns faces for its own work until neighbours agree; the file keeps the order of \

@@ -1,9 +1,9 @@
 //! Faces with more than three corners: how many, how flat, how they are cut.
 
-use rayon::prelude::*;
+use std::ops::RangeInclusive;
 
 use super::faces::Faces;
-use super::finding::{Finding, Tally};
+use super::finding::{Finding, Place, Tally};
 use super::kind::Kind;
 use crate::geom::{Point, Vector};
 
@@ -15,35 +15,43 @@ const FOLD: f64 = 1e-6;
 /// The findings on faces with more than three corners.
 pub(super) fn findings(faces: &Faces<'_>) -> Vec<Finding> {
     let polygons = &faces.mesh.polygons;
-    let of = |wanted: &(dyn Fn(usize) -> bool + Sync)| -> Tally {
-        let these = (0..polygons.len()).into_par_iter().filter(|&f| wanted(f));
-        let these: Vec<u32> = these.map(|f| f as u32).collect();
-        these.into_iter().collect()
+    let with_corners = |range: RangeInclusive<usize>| -> Tally {
+        let these = (0..polygons.len()).filter(|&f| range.contains(&polygons.get(f).len()));
+        these.map(|f| f as u32).collect()
     };
-    let corners = |f: usize| -> Option<Vec<Point>> {
-        let polygon = polygons.get(f);
-        let positions = polygon.iter().map(|&v| faces.mesh.positions[v as usize]);
-        (polygon.len() > 3 && faces.can_be_cut(f)).then(|| positions.collect())
-    };
+    let mut bent = Tally::default();
+    let mut folded = Tally::default();
+    let at = |v: u32| faces.mesh.positions[v as usize];
+    for triangles in faces.cut.chunk_by(|a, b| a.1 == b.1) {
+        let face = triangles[0].1;
+        if triangles.len() < 2 || !faces.can_be_cut(face as usize) {
+            continue;
+        }
+        let areas: Vec<Vector> = triangles.iter().map(|(t, _)| area(t.map(at))).collect();
+        let across: Vector = areas.iter().sum();
+        let corners = polygons.get(face as usize).iter().map(|&v| at(v));
+        if is_bent(&corners.collect::<Vec<_>>(), &across) {
+            bent.add(Place::One(face));
+        }
+        if folds(&areas, &across) {
+            folded.add(Place::One(face));
+        }
+    }
     vec![
-        Finding::new(Kind::Bent, of(&|f| corners(f).is_some_and(|c| is_bent(&c)))),
-        Finding::new(Kind::Folded, of(&|f| corners(f).is_some_and(|c| folds(&c)))),
-        Finding::new(Kind::Polygon, of(&|f| polygons.get(f).len() > 4)),
-        Finding::new(Kind::Quad, of(&|f| polygons.get(f).len() == 4)),
+        Finding::new(Kind::Bent, bent),
+        Finding::new(Kind::Folded, folded),
+        Finding::new(Kind::Polygon, with_corners(5..=usize::MAX)),
+        Finding::new(Kind::Quad, with_corners(4..=4)),
     ]
 }
 
-/// The doubled areas of the triangles into which a face is cut, as vectors across them.
-fn areas(corners: &[Point]) -> impl Iterator<Item = Vector> {
-    let from_first = |p: &Point| p - corners[0];
-    corners[1..]
-        .windows(2)
-        .map(move |w| from_first(&w[0]).cross(&from_first(&w[1])))
+/// Twice the area of a triangle, as a vector across it.
+fn area([a, b, c]: [Point; 3]) -> Vector {
+    (b - a).cross(&(c - a))
 }
 
-fn is_bent(corners: &[Point]) -> bool {
+fn is_bent(corners: &[Point], across: &Vector) -> bool {
     let center = corners.iter().map(|p| p.coords).sum::<Vector>() / corners.len() as f64;
-    let across: Vector = areas(corners).sum();
     let Some(normal) = across.try_normalize(0.0) else {
         return false;
     };
@@ -53,8 +61,7 @@ fn is_bent(corners: &[Point]) -> bool {
     off > BEND * width
 }
 
-fn folds(corners: &[Point]) -> bool {
-    let across: Vector = areas(corners).sum();
-    let against = areas(corners).map(|a| -a.dot(&across));
+fn folds(areas: &[Vector], across: &Vector) -> bool {
+    let against = areas.iter().map(|a| -a.dot(across));
     against.fold(0.0, f64::max) > FOLD * across.norm_squared()
 }
