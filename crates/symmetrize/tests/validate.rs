@@ -26,14 +26,14 @@ fn everything_is_told_in_words() {
 square.off: 5 vertices, 3 faces, which make 2 triangles to work with
 box 1.000 x 1.000 x 0, diagonal D = 1.414, centre 0.7071 from the origin
 
-mended    1 duplicate face                    face 2
+mended    1 duplicate face                      face 2
           The corners are those of an earlier face, in the same order.
           A run works with the first of equal triangles only; the file keeps all.
-note      1 border                            edge 0-1
+note      1 border                              edge 0-1
           4 edges have a face on one side only: the rim of an open surface, or holes in it; the
           longest border has 4.
           A run closes no hole and makes none.
-note      1 loose vertex                      vertex 4
+note      1 loose vertex                        vertex 4
           No face uses such a vertex.
           A run leaves loose vertices where they are.
 fine      1 connected part, single precision

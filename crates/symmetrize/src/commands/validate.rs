@@ -7,7 +7,7 @@ use clap::Args;
 use symmetrizer::Result;
 use symmetrizer::report::ValidateReport;
 use symmetrizer::shape::Findings;
-use symmetrizer::shape::validate::{Finding, Place, Severity, Size};
+use symmetrizer::shape::validate::{FIRST, Finding, Place, Severity, Size};
 
 use crate::Answer;
 use crate::files::{ReportFile, check_distinct, commit};
@@ -77,7 +77,7 @@ fn text(found: &Findings, name: &str) -> String {
     }
     let fine: Vec<String> = fine.into_iter().map(Finding::title).collect();
     if !fine.is_empty() {
-        text += &format!("{:<INDENT$}{}\n", "fine", fine.join(", "));
+        text += &wrapped("fine", &fine.join(", "));
     }
     text + "\n" + &verdict(found)
 }
@@ -94,7 +94,7 @@ fn extent(size: &Size) -> String {
 /// A line with count and places, then sentences.
 fn entry(finding: &Finding) -> String {
     let line = format!(
-        "{:<INDENT$}{:<36}{}",
+        "{:<INDENT$}{:<36}  {}",
         severity(finding.severity),
         finding.title(),
         places(finding)
@@ -102,7 +102,7 @@ fn entry(finding: &Finding) -> String {
     let mut text = format!("{}\n", line.trim_end());
     let run = format!("A run {}.", finding.action);
     for sentence in [&finding.what, &run] {
-        text += &wrapped(sentence);
+        text += &wrapped("", sentence);
     }
     text
 }
@@ -121,9 +121,11 @@ fn places(finding: &Finding) -> String {
     if finding.first.is_empty() {
         return String::new();
     }
+    let shown = if finding.at == "edges" { 3 } else { FIRST };
     let numbers: Vec<String> = finding
         .first
         .iter()
+        .take(shown)
         .map(|place| match place {
             Place::One(v) => v.to_string(),
             Place::Edge([u, v]) => format!("{u}-{v}"),
@@ -156,21 +158,24 @@ fn counted(n: usize, one: &str, many: &str) -> String {
     format!("{} {}", grouped(n), if n == 1 { one } else { many })
 }
 
-/// A sentence in lines of [`WIDTH`] columns, indented.
-fn wrapped(sentence: &str) -> String {
+/// A sentence in lines of [`WIDTH`] columns, indented; `first` stands before the first line.
+fn wrapped(first: &str, sentence: &str) -> String {
     let mut text = String::new();
-    let mut column = WIDTH;
+    let mut line = format!("{first:<INDENT$}");
     for word in sentence.split_whitespace() {
-        let length = word.chars().count();
-        if column + 1 + length > WIDTH {
-            let _ = write!(text, "\n{:INDENT$}{word}", "");
-            column = INDENT + length;
-        } else {
-            let _ = write!(text, " {word}");
-            column += 1 + length;
+        if line.len() > INDENT && line.chars().count() + 1 + word.chars().count() > WIDTH {
+            let _ = writeln!(text, "{line}");
+            line = " ".repeat(INDENT);
         }
+        if line.len() > INDENT {
+            line.push(' ');
+        }
+        line += word;
     }
-    text.trim_start_matches('\n').to_owned() + if text.is_empty() { "" } else { "\n" }
+    if line.len() > INDENT {
+        let _ = writeln!(text, "{line}");
+    }
+    text
 }
 
 #[cfg(test)]
@@ -179,9 +184,9 @@ mod tests {
 
     #[test]
     fn sentences_are_broken_into_lines() {
-        assert_eq!(wrapped(""), "");
-        assert_eq!(wrapped("One two."), "          One two.\n");
-        let long = wrapped(&"word ".repeat(40));
+        assert_eq!(wrapped("", ""), "");
+        assert_eq!(wrapped("fine", "One two."), "fine      One two.\n");
+        let long = wrapped("", &"word ".repeat(40));
         assert_eq!(long.lines().count(), 3);
         assert!(
             long.lines()

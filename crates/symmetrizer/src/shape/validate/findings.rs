@@ -78,7 +78,15 @@ impl Findings {
 fn surface(faces: &Faces<'_>) -> Finding {
     let mesh = faces.mesh;
     if mesh.polygons.is_empty() {
-        return Finding::new(Kind::NoFaces, Tally::of(mesh.positions.len()));
+        let none = Finding::new(Kind::NoFaces, Tally::of(mesh.positions.len()));
+        if mesh.positions.is_empty() {
+            return Finding {
+                what: "There are no vertices either.".to_owned(),
+                action: "refuses the file: check that it is the right one".to_owned(),
+                ..none
+            };
+        }
+        return none;
     }
     let count = if has_area(faces) {
         0

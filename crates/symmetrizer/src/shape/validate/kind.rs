@@ -98,11 +98,7 @@ impl Kind {
             | Self::Overlap
             | Self::Misoriented
             | Self::SamePlace => Severity::Mended,
-            Self::Polygon
-            | Self::Quad
-            | Self::SinglePrecision
-            | Self::ExtremeSize
-            | Self::Closed => Severity::Fine,
+            Self::Polygon | Self::Quad | Self::SinglePrecision | Self::Closed => Severity::Fine,
             _ => Severity::Note,
         }
     }

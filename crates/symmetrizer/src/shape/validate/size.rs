@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::finding::{Finding, Tally};
-use super::kind::{Kind, Severity};
+use super::kind::Kind;
 use crate::geom::{Point, Vector};
 use crate::shape::mesh::{Mesh, is_finite};
 
@@ -91,7 +91,6 @@ impl Size {
             ));
         }
         Finding {
-            severity: Severity::Fine,
             action: Kind::ExtremeSize.action().to_owned(),
             ..finding
         }
