@@ -31,8 +31,21 @@ impl From<OsString> for Input {
 impl Input {
     /// Reads or generates the shape, as the stage `read` of `ctx`.
     pub fn read(&self, ctx: &mut Context<'_>) -> Result<Document> {
+        self.read_with(io::read, ctx)
+    }
+
+    /// The same, with faces that cannot be used.
+    pub fn examine(&self, ctx: &mut Context<'_>) -> Result<Document> {
+        self.read_with(io::examine, ctx)
+    }
+
+    fn read_with(
+        &self,
+        read: fn(&Path) -> Result<Document>,
+        ctx: &mut Context<'_>,
+    ) -> Result<Document> {
         ctx.stage("read", |_| match self {
-            Self::File(path) => io::read(path),
+            Self::File(path) => read(path),
             Self::Model(name) => generate(name).map(Document::from),
         })
     }

@@ -31,12 +31,13 @@ enum Verb {
     Detect(commands::detect::DetectArgs),
     Plot(commands::plot::PlotArgs),
     Measure(commands::measure::MeasureArgs),
+    Validate(commands::validate::ValidateArgs),
     Render(commands::render::RenderArgs),
     Convert(commands::convert::ConvertArgs),
     Params(commands::params::ParamsArgs),
 }
 
-const EXIT_CODES: &str = "Exit codes: 0 done; 1 no symmetry found; 2 bad input, parameters or \
+const EXIT_CODES: &str = "Exit codes: 0 done; 1 no symmetry found, or a file that a run refuses; 2 bad input, parameters or \
 paths; 3 numerical failure; 130 cancelled. Output files appear whole or not at all.";
 
 /// The answer to the question of a verb.
@@ -44,7 +45,7 @@ paths; 3 numerical failure; 130 cancelled. Output files appear whole or not at a
 pub enum Answer {
     /// Done.
     Yes,
-    /// There is no symmetry.
+    /// There is no symmetry, or a run would refuse the file.
     No,
 }
 
@@ -67,6 +68,7 @@ fn answer(cli: &Cli) -> Result<Answer> {
         Verb::Detect(args) => commands::detect::detect(args, &desk),
         Verb::Plot(args) => commands::plot::plot(args, &desk),
         Verb::Measure(args) => commands::measure::measure(args, &desk),
+        Verb::Validate(args) => commands::validate::validate(args, &desk),
         Verb::Render(args) => commands::render::render(args, &desk),
         Verb::Convert(args) => commands::convert::convert(args, &desk),
         Verb::Params(args) => commands::params::params(args),

@@ -7,6 +7,8 @@ use symmetrizer::optimize::Step;
 use symmetrizer::report::{InputReport, RefusalReport, Report, ShapeReport, SymmetryReport};
 use symmetrizer::{Outcome, Warning};
 
+pub use symmetrizer::shape::validate::grouped;
+
 /// Refused modes listed at the most; the report has them all.
 const REFUSED: usize = 8;
 
@@ -192,21 +194,8 @@ fn outcome(outcome: Outcome) -> &'static str {
     }
 }
 
-/// 12345 as 12,345.
-pub fn grouped(n: usize) -> String {
-    let digits = n.to_string();
-    let mut text = String::new();
-    for (i, c) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(c);
-    }
-    text
-}
-
 /// Four significant digits, plain where that is short.
-fn short(x: f64) -> String {
+pub fn short(x: f64) -> String {
     let size = x.abs();
     if size == 0.0 {
         "0".into()

@@ -7,6 +7,7 @@
 pub mod faces;
 mod json;
 pub mod symmetry;
+mod validate;
 
 use serde::Serialize;
 
@@ -21,6 +22,7 @@ use crate::shape::working::Working;
 use crate::shape::{Mesh, Validation};
 
 pub use symmetry::{RefusalReport, SymmetryReport};
+pub use validate::ValidateReport;
 
 /// The number of the report's format; it changes when a key changes its meaning.
 pub const SCHEMA: u32 = 1;

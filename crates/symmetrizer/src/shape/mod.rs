@@ -18,5 +18,5 @@ pub use closest::{ClosestPoint, Hit};
 pub use document::Document;
 pub use mesh::Mesh;
 pub use surface::{Surface, SurfacePoint};
-pub use validate::Validation;
+pub use validate::{Findings, Validation};
 pub use working::Working;

@@ -18,7 +18,7 @@ use table::{COLOR, NORMAL, Table, is_number, separates};
 
 /// The points in the text of an XYZ file.
 pub(super) fn decode(bytes: &[u8]) -> Result<Document> {
-    let table = Table::read(plain(bytes)?)?;
+    let table = Table::read(&plain(bytes)?)?;
     let positions = table.rows().map(|r| Point::new(r[0], r[1], r[2]));
     Ok(Document {
         mesh: Mesh {

@@ -1,9 +1,28 @@
-//! Counts of what is unusual in a mesh; none of it stops the work.
+//! What is unusual in a mesh: counts for the report of a run, and findings with their places for
+//! those who ask what is wrong with a file.
+
+mod crossing;
+mod duplicates;
+mod edges;
+mod faces;
+mod finding;
+mod findings;
+mod joined;
+mod kind;
+mod places;
+mod polygons;
+mod sets;
+mod size;
 
 use serde::Serialize;
 
 use crate::shape::mesh::Mesh;
-use crate::shape::{Surface, Working};
+use crate::shape::Working;
+
+pub use finding::{FIRST, Finding, Place, grouped};
+pub use findings::Findings;
+pub use kind::{Kind, Severity};
+pub use size::Size;
 
 /// What the working surface had to leave out, and how it hangs together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -14,6 +33,12 @@ pub struct Validation {
     pub welded_vertices: usize,
     /// Triangles of the document with two corners in one place, or without area.
     pub degenerate_faces: usize,
+    /// Triangles of the document with the corners of an earlier one.
+    pub duplicate_faces: usize,
+    /// Triangles of the document with a corner that has no finite position.
+    pub unplaced_faces: usize,
+    /// Triangles turned to run the same way round as their neighbours.
+    pub turned_faces: usize,
     /// Parts of the surface that share no vertex.
     pub components: usize,
     /// Edges with one triangle.
@@ -28,63 +53,24 @@ impl Validation {
         let surface = &working.surface;
         let used = working.vertex_of_document.iter().flatten().count();
         let flat = surface.face_areas.iter().filter(|a| **a <= 0.0).count();
-        let (boundary_edges, non_manifold_edges) = odd_edges(surface);
+        let (boundary_edges, non_manifold_edges) =
+            edges::odd_edges(&edges::sides(&surface.triangles));
+        let components = edges::components(&surface.triangles, surface.positions.len());
+        let components = components.into_iter().enumerate();
         Self {
             unused_vertices: mesh.positions.len() - used,
             welded_vertices: used - surface.positions.len(),
-            degenerate_faces: mesh.triangles().count() - surface.triangles.len() + flat,
-            components: components(surface),
+            degenerate_faces: working.mended.degenerate + flat,
+            duplicate_faces: working.mended.duplicate,
+            unplaced_faces: working.mended.unplaced,
+            turned_faces: working.mended.turned,
+            components: components
+                .filter(|(t, first)| *t == *first as usize)
+                .count(),
             boundary_edges,
             non_manifold_edges,
         }
     }
-}
-
-/// Edges with one triangle, and with more than two.
-fn odd_edges(surface: &Surface) -> (usize, usize) {
-    let edges = surface.sides();
-    let mut counts = (0, 0);
-    for group in edges.chunk_by(|a, b| a == b) {
-        match group.len() {
-            1 => counts.0 += 1,
-            2 => {}
-            _ => counts.1 += 1,
-        }
-    }
-    counts
-}
-
-fn components(surface: &Surface) -> usize {
-    let mut parent: Vec<u32> = (0..surface.positions.len() as u32).collect();
-    let mut count = parent.len();
-    for &[a, b, c] in surface.triangles.iter() {
-        for (u, v) in [(a, b), (b, c)] {
-            let (u, v) = (root(&mut parent, u), root(&mut parent, v));
-            if u != v {
-                parent[u.max(v) as usize] = u.min(v);
-                count -= 1;
-            }
-        }
-    }
-    count - lonely(surface)
-}
-
-/// The representative of `v`, paths halved on the way.
-fn root(parent: &mut [u32], mut v: u32) -> u32 {
-    while parent[v as usize] != v {
-        parent[v as usize] = parent[parent[v as usize] as usize];
-        v = parent[v as usize];
-    }
-    v
-}
-
-/// Vertices all of whose triangles were degenerate.
-fn lonely(surface: &Surface) -> usize {
-    let mut alone = vec![true; surface.positions.len()];
-    for &v in surface.triangles.iter().flatten() {
-        alone[v as usize] = false;
-    }
-    alone.into_iter().filter(|a| *a).count()
 }
 
 #[cfg(test)]
@@ -116,8 +102,11 @@ mod tests {
             unused_vertices: 1,
             welded_vertices: 1,
             degenerate_faces: 1,
+            duplicate_faces: 1,
+            unplaced_faces: 0,
+            turned_faces: 0,
             components: 2,
-            boundary_edges: 6,
+            boundary_edges: 9,
             non_manifold_edges: 1,
         };
         assert_eq!(found, expected);
