@@ -8,7 +8,10 @@ mod kept;
 mod layer;
 mod numbers;
 
-pub use kept::{GltfKept, Kept, ObjKept, PlyKept, StlKept, ThreeMfKept};
+pub use kept::{
+    GltfKept, Kept, ObjKept, PlyElement, PlyForm, PlyKept, PlyProperty, PlyRemark, StlKept,
+    ThreeMfKept,
+};
 pub use layer::{Layer, MorphPart, NO_ROW, On, Role, Values};
 pub use numbers::{Kind, Numbers};
 

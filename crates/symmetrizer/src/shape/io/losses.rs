@@ -17,7 +17,7 @@ pub(super) fn of_kept(document: &Document, format: Format) -> Vec<String> {
             let elements = counted(kept.elements.len(), "line or point element");
             libraries.chain(elements).collect()
         }
-        (Kept::Ply(_), _) => Vec::new(),
+        (Kept::Ply(kept), _) => super::ply::of_kept(kept),
         (Kept::Gltf(_), _) => Vec::new(),
         (Kept::ThreeMf(_), _) => Vec::new(),
     }

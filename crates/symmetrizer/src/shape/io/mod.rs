@@ -8,7 +8,6 @@ mod losses;
 mod obj;
 mod off;
 mod ply;
-mod ply_elements;
 mod stl;
 mod text;
 mod threemf;
@@ -134,7 +133,7 @@ fn decode_beside(bytes: Vec<u8>, format: Format, folder: Option<&Path>) -> Resul
     }
     let document = match format {
         Format::Obj => obj::decode(&bytes).map(Document::from),
-        Format::Ply => ply::decode(&bytes).map(Document::from),
+        Format::Ply => ply::decode(&bytes),
         Format::Off => off::decode(&bytes).map(Document::from),
         Format::Stl => stl::decode(bytes).map(Document::from),
         Format::Gltf | Format::Glb => gltf::decode(bytes, folder),
@@ -167,7 +166,7 @@ pub fn encode(document: &Document, format: Format, w: &mut dyn Write) -> Result<
     document.mesh.check_corners()?;
     match format {
         Format::Obj => obj::encode(&document.mesh, w),
-        Format::Ply => ply::encode(&document.mesh, w),
+        Format::Ply => ply::encode(document, w),
         Format::Off => off::encode(&document.mesh, w),
         Format::Stl => stl::encode(&document.mesh, w),
         Format::Gltf => gltf::encode_text(document, w),
@@ -183,7 +182,7 @@ pub fn losses(document: &Document, format: Format) -> Vec<String> {
     let mut lost = losses::of_kept(document, format);
     lost.extend(match format {
         Format::Obj => Vec::new(),
-        Format::Ply => Vec::new(),
+        Format::Ply => ply::losses(document),
         Format::Off => Vec::new(),
         Format::Stl => Vec::new(),
         Format::Gltf | Format::Glb => gltf::losses(document),
