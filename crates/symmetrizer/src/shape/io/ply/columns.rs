@@ -83,13 +83,13 @@ fn plain(name: String, values: &Values) -> Option<Column<'_>> {
     })
 }
 
-/// The columns of a layer under `names`; names of its values become `comments`.
+/// The columns of a layer under `names`, which the file had where it `is_kept`; names that are its
+/// values become `comments`.
 pub(super) fn of_layer<'a>(
     document: &'a Document,
     layer: &'a Layer,
-    fate: Fate<'a>,
+    (fate, is_kept): (Fate<'a>, bool),
     names: Vec<String>,
-    is_kept: bool,
     comments: &mut String,
 ) -> Vec<Column<'a>> {
     let first = names.first().cloned().unwrap_or_default();

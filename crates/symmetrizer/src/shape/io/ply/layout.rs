@@ -118,29 +118,28 @@ fn sheet<'a>(
 
 fn add_layers<'a>(document: &'a Document, properties: &[PlyProperty], sheet: &mut Sheet<'a>) {
     let mut used: BTreeSet<String> = sheet.columns.iter().map(|c| c.name.clone()).collect();
-    // The kept names go to those who had them.
-    for again in [true, false] {
-        for layer in &document.layers {
-            let fate = fate(document, layer);
-            let on = match fate {
-                Fate::Vertex(_) => "vertex",
-                Fate::Face | Fate::Corner => "face",
-                Fate::Lost => continue,
-            };
-            let width = match fate {
-                Fate::Corner => 1,
-                _ => layer.values.width().unwrap_or(1),
-            };
-            let own = naming::own_names(layer, width, properties, &used);
-            if on != sheet.name || own.is_some() != again {
-                continue;
-            }
-            let is_kept = own.is_some();
-            let names = own.unwrap_or_else(|| naming::new_names(layer, width, &used));
-            used.extend(names.iter().cloned());
-            let columns =
-                columns::of_layer(document, layer, fate, names, is_kept, &mut sheet.comments);
-            sheet.columns.extend(columns);
-        }
+    let layers = document.layers.iter().filter_map(|layer| {
+        let fate = fate(document, layer);
+        let (on, width) = match fate {
+            Fate::Vertex(_) => ("vertex", layer.values.width().unwrap_or(1)),
+            Fate::Face => ("face", layer.values.width().unwrap_or(1)),
+            Fate::Corner => ("face", 1),
+            Fate::Lost => return None,
+        };
+        (on == sheet.name).then_some((layer, fate, width))
+    });
+    let mut layers: Vec<_> = layers.map(|l| (l, None)).collect();
+    // The kept names go to those who had them; only then are new ones made.
+    for ((layer, _, width), names) in &mut layers {
+        *names = naming::own_names(layer, *width, properties, &used);
+        used.extend(names.iter().flatten().cloned());
+    }
+    for ((layer, fate, width), own) in layers {
+        let is_kept = own.is_some();
+        let names = own.unwrap_or_else(|| naming::new_names(layer, width, &used));
+        used.extend(names.iter().cloned());
+        let comments = &mut sheet.comments;
+        let columns = columns::of_layer(document, layer, (fate, is_kept), names, comments);
+        sheet.columns.extend(columns);
     }
 }
