@@ -8,7 +8,6 @@ mod gltf;
 mod obj;
 mod off;
 mod ply;
-mod ply_properties;
 mod properties;
 mod shared;
 mod stl;

@@ -25,16 +25,18 @@ pub(super) fn columns(header: &Header<'_>) -> Result<Vec<Vec<Values>>> {
 fn element(words: &mut Words<'_>, declared: &Declared, size: usize) -> Result<Vec<Values>> {
     // A value takes a digit and a separator.
     let room = size / 2 + 1;
-    let rows = declared.count.min(room / declared.properties.len().max(1));
+    let share = room / declared.properties.len().max(1);
     let mut columns: Vec<Values> = declared
         .properties
         .iter()
-        .map(|p| column(p.count, kind(declared, p), rows, room))
+        .map(|p| column(p.count, kind(declared, p), declared.count.min(share), share))
         .collect();
+    let mut properties = declared.properties.iter();
+    let corners = properties.position(|p| is_corners(declared, p));
     for index in 0..declared.count {
         let part = Part(&declared.name, index);
-        for (property, values) in declared.properties.iter().zip(&mut columns) {
-            value(words, part, is_corners(declared, property), values)?;
+        for (p, values) in columns.iter_mut().enumerate() {
+            value(words, part, Some(p) == corners, values)?;
         }
         words.skip_line();
     }

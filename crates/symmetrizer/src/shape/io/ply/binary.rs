@@ -52,10 +52,11 @@ impl<'a> Reader<'a> {
             .map(|p| size(p.count.unwrap_or(p.kind)))
             .sum();
         let rows = declared.count.min(self.rest.len() / least.max(1));
+        let many = declared.properties.len().max(1);
         let columns = declared
             .properties
             .iter()
-            .map(|p| column(p.count, p.kind, rows, self.rest.len() / size(p.kind)));
+            .map(|p| column(p.count, p.kind, rows, self.rest.len() / size(p.kind) / many));
         let columns = columns.collect();
         match declared.properties.iter().all(|p| p.count.is_none()) {
             true => self.table(declared, least, columns),
@@ -173,19 +174,22 @@ fn packed(bytes: &[u8], width: usize) -> Strided<'_> {
     }
 }
 
-impl<'a> Strided<'a> {
-    fn numbers<const N: usize>(self) -> impl Iterator<Item = [u8; N]> + 'a {
-        let rows = self.bytes.chunks_exact(self.stride.max(1));
-        rows.filter_map(move |row| row.get(self.offset..)?.first_chunk().copied())
+fn extend<T, const N: usize>(list: &mut Vec<T>, from: Strided<'_>, number: impl Fn([u8; N]) -> T) {
+    if from.stride == N {
+        list.extend(from.bytes.as_chunks().0.iter().copied().map(number));
+        return;
     }
+    let rows = from.bytes.chunks_exact(from.stride.max(1));
+    let at_offset = |row: &[u8]| row.get(from.offset..)?.first_chunk().copied();
+    list.extend(rows.filter_map(at_offset).map(number));
 }
 
 macro_rules! append {
     ($numbers:expr, $from:expr, $big:expr, $($variant:ident $type:ty),*) => {
         match $numbers {
             $(Numbers::$variant(v) => match $big {
-                true => v.extend($from.numbers().map(<$type>::from_be_bytes)),
-                false => v.extend($from.numbers().map(<$type>::from_le_bytes)),
+                true => extend(v, $from, <$type>::from_be_bytes),
+                false => extend(v, $from, <$type>::from_le_bytes),
             }),*
         }
     };

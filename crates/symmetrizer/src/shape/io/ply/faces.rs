@@ -8,37 +8,28 @@ use crate::shape::mesh::Polygons;
 ///
 /// # Errors
 /// [`Error::Input`] with the face that has a negative corner.
-pub(super) fn polygons(values: &Values) -> Result<Polygons> {
-    let mut polygons = Polygons::default();
+pub(super) fn polygons(values: Values) -> Result<Polygons> {
     let Values::Lists { starts, numbers } = values else {
-        return Ok(polygons);
+        return Ok(Polygons::default());
     };
-    let mut corners = Vec::new();
-    for (f, range) in starts.windows(2).enumerate() {
-        let range = range[0] as usize..range[1] as usize;
-        match numbers {
-            Numbers::U32(v) => polygons.push(&v[range]),
-            Numbers::I32(v) => {
-                corners.clear();
-                for &v in &v[range] {
-                    corners.push(u32::try_from(v).map_err(|_| negative(f, v))?);
-                }
-                polygons.push(&corners);
-            }
-            _ => {
-                corners.clear();
-                for i in range {
-                    let v = numbers.get(i) as i32;
-                    corners.push(u32::try_from(v).map_err(|_| negative(f, v))?);
-                }
-                polygons.push(&corners);
-            }
-        }
+    let below = match &numbers {
+        Numbers::U32(_) => None,
+        Numbers::I32(v) => v.iter().position(|&v| v < 0),
+        other => other.iter().position(|v| v < 0.0),
+    };
+    if let Some(i) = below {
+        let f = starts.partition_point(|&s| s as usize <= i) - 1;
+        return Err(negative(f, numbers.get(i)));
     }
-    Ok(polygons)
+    let corners = match numbers {
+        Numbers::U32(v) => v,
+        Numbers::I32(v) => v.into_iter().map(|v| v as u32).collect(),
+        other => other.iter().map(|v| v as u32).collect(),
+    };
+    Ok(Polygons::from_lists(starts, corners))
 }
 
-fn negative(f: usize, v: i32) -> Error {
+fn negative(f: usize, v: f64) -> Error {
     Error::input(
         format!("face {f} (counted from 0) names vertex {v}"),
         "the file is damaged: indices count from 0",
@@ -50,7 +41,7 @@ fn negative(f: usize, v: i32) -> Error {
 /// only leads the strip elsewhere and is dropped.
 ///
 /// # Errors
-/// [`Error::Input`] where the corners would be too many to count.
+/// [`Error::Input`] where an index is no whole number or the corners would be too many to count.
 pub(super) fn strips(values: &Values, polygons: &mut Polygons) -> Result<usize> {
     let Values::Lists { starts, numbers } = values else {
         return Ok(0);
@@ -68,6 +59,9 @@ pub(super) fn strips(values: &Values, polygons: &mut Polygons) -> Result<usize> 
             if v < 0.0 || v >= f64::from(u32::MAX) {
                 triangles(&strip, polygons);
                 strip.clear();
+            } else if v.fract() != 0.0 {
+                let what = format!("a triangle strip names vertex {v}");
+                return Err(Error::input(what, "indices are whole numbers from 0"));
             } else {
                 strip.push(v as u32);
             }

@@ -5,6 +5,9 @@ use crate::shape::document::{Kind, PlyForm, PlyProperty, PlyRemark};
 
 use super::super::text::{at_line, shown};
 
+/// Elements and properties of a header, together; files have some tens.
+const MOST: usize = 4096;
+
 /// What a header says, and where the body starts.
 pub(super) struct Header<'a> {
     pub form: PlyForm,
@@ -62,11 +65,8 @@ struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     fn new(bytes: &'a [u8]) -> Result<Self> {
-        let after = bytes
-            .strip_prefix(b"ply")
-            .unwrap_or(b"-")
-            .trim_ascii_start();
-        if bytes.get(3).is_some_and(|b| !b.is_ascii_whitespace()) || after == b"-" {
+        let after = bytes.strip_prefix(b"ply").map(<[u8]>::first);
+        if !after.is_some_and(|b| b.is_none_or(u8::is_ascii_whitespace)) {
             return Err(Error::input(
                 "byte 0: a PLY file starts with the line 'ply', this one does not",
                 "is this another kind of file?",
@@ -121,30 +121,26 @@ impl Parser {
                 return Ok(false);
             }
             ["end_header"] => return Ok(true),
+            ["format", ..] if self.form.is_some() => {
+                let what = "the header names its format a second time";
+                return Err(at_line(number, what, "remove one of the lines"));
+            }
             ["format", name, ..] => self.form = Some(form(name, number)?),
             ["element", name, count] => self.element(name, count, number)?,
             ["property", "list", count, kind, name] => {
-                let count = self::kind(count, number)?;
-                if count.is_float() {
-                    let what = format!("the length of the list '{name}' is not a whole number");
-                    return Err(at_line(number, what, "uchar, int and so on are"));
-                }
+                let count = length_kind(name, count, number)?;
                 self.property(name, self::kind(kind, number)?, Some(count), number)?;
             }
             ["property", kind, name] => {
                 self.property(name, self::kind(kind, number)?, None, number)?;
             }
-            _ => {
-                let what = format!("'{}' is not a line of a PLY header", shown(line));
-                return Err(at_line(
-                    number,
-                    what,
-                    "format, element NAME COUNT, property TYPE NAME, property list TYPE TYPE NAME, \
-                     comment, obj_info and end_header are",
-                ));
-            }
+            _ => return Err(no_line(line, number)),
         }
         self.place += 1;
+        if self.place > MOST {
+            let what = format!("the header names more than {MOST} elements and properties");
+            return Err(at_line(number, what, "write fewer of them to the file"));
+        }
         Ok(false)
     }
 
@@ -195,6 +191,24 @@ impl Parser {
         });
         Ok(())
     }
+}
+
+fn no_line(line: &[u8], number: usize) -> Error {
+    at_line(
+        number,
+        format!("'{}' is not a line of a PLY header", shown(line)),
+        "format, element NAME COUNT, property TYPE NAME, property list TYPE TYPE NAME, comment, \
+         obj_info and end_header are",
+    )
+}
+
+fn length_kind(list: &str, name: &str, line: usize) -> Result<Kind> {
+    let kind = kind(name, line)?;
+    if kind.is_float() {
+        let what = format!("the length of the list '{list}' is not a whole number");
+        return Err(at_line(line, what, "uchar, int and so on are"));
+    }
+    Ok(kind)
 }
 
 fn formless(line: usize) -> Error {

@@ -106,7 +106,9 @@ fn sheet<'a>(
     }
     // Stable: what is not kept stays behind, in the order of the layers.
     let line = |c: &Column<'_>| properties.iter().position(|p| p.name == c.name);
-    sheet.columns.sort_by_key(|c| line(c).unwrap_or(usize::MAX));
+    sheet
+        .columns
+        .sort_by_cached_key(|c| line(c).unwrap_or(usize::MAX));
     for column in &mut sheet.columns {
         column.place = line(column).and_then(|l| Some(kept?.1 + 1 + l));
         let before = properties.iter().find(|p| p.name == column.name);

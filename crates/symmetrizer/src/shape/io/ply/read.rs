@@ -5,7 +5,7 @@ use super::{axis, faces, families, index_list, names};
 use crate::error::Result;
 use crate::geom::Point;
 use crate::shape::document::{
-    Document, Kept, Layer, On, PlyElement, PlyKept, PlyProperty, Role, Values,
+    Document, Kept, Layer, Numbers, On, PlyElement, PlyKept, PlyProperty, Role, Values,
 };
 use crate::shape::mesh::Polygons;
 
@@ -82,12 +82,22 @@ fn vertices(declared: Declared, columns: Vec<Values>, document: &mut Document) -
             None => others.push((property.name.clone(), Some(values))),
         }
     }
-    if let [Some(x), Some(y), Some(z)] = position.each_ref().map(|v| v.as_ref()?.numbers()) {
-        let points = x.iter().zip(y.iter()).zip(z.iter());
-        document.mesh.positions = points.map(|((x, y), z)| Point::new(x, y, z)).collect();
+    if let [Some(x), Some(y), Some(z)] = position.each_ref().map(|v| Some(doubles(v.as_ref()?))) {
+        let points = x.iter().zip(&y).zip(&z);
+        document.mesh.positions = points.map(|((x, y), z)| Point::new(*x, *y, *z)).collect();
     }
     document.layers.extend(families::layers(others, On::Vertex));
     element
+}
+
+/// The numbers of a column; the types that coordinates have in one go.
+fn doubles(values: &Values) -> Vec<f64> {
+    match values.numbers() {
+        Some(Numbers::F32(v)) => v.iter().copied().map(f64::from).collect(),
+        Some(Numbers::F64(v)) => v.clone(),
+        Some(other) => other.iter().collect(),
+        None => Vec::new(),
+    }
 }
 
 fn face_element(
@@ -101,7 +111,7 @@ fn face_element(
     let mut others = Vec::new();
     for (property, values) in element.properties.iter().zip(columns) {
         if Some(&property.name) == corners.as_ref() {
-            document.mesh.polygons = faces::polygons(&values)?;
+            document.mesh.polygons = faces::polygons(values)?;
         } else {
             others.push((property.name.clone(), Some(values)));
         }

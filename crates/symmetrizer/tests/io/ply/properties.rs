@@ -7,6 +7,7 @@ use symmetrizer::shape::document::{
 };
 use symmetrizer::shape::io::{self, Format};
 
+use super::bytes_of;
 use crate::shared::*;
 
 const FORMS: [PlyForm; 3] = [PlyForm::Text, PlyForm::Little, PlyForm::Big];
@@ -158,12 +159,6 @@ fn any_document() -> impl Strategy<Value = Document> {
     })
 }
 
-fn written(document: &Document) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    io::encode(document, Format::Ply, &mut bytes).unwrap();
-    bytes
-}
-
 /// Debug output tells -0 from 0.
 fn bits(document: &Document) -> String {
     format!("{:?} {:?}", document.mesh, document.layers)
@@ -214,11 +209,11 @@ proptest! {
 
     #[test]
     fn any_document_round_trips(document in any_document()) {
-        let again = self::document(written(&document), Format::Ply);
+        let again = self::document(bytes_of(&document), Format::Ply);
         prop_assert_eq!(bits(&again), bits(&document));
         prop_assert!(io::losses(&document, Format::Ply).is_empty());
         // What is read from PLY is written as it was, header and all.
-        prop_assert!(written(&again) == written(&self::document(written(&again), Format::Ply)));
+        prop_assert!(bytes_of(&again) == bytes_of(&self::document(bytes_of(&again), Format::Ply)));
     }
 
     #[test]
@@ -235,7 +230,7 @@ proptest! {
                 bytes.truncate((cut * bytes.len() as f64) as usize);
             }
             if let Ok(document) = io::decode(bytes, Format::Ply) {
-                let again = self::document(written(&document), Format::Ply);
+                let again = self::document(bytes_of(&document), Format::Ply);
                 prop_assert_eq!(again.mesh.polygons, document.mesh.polygons);
             }
         }
