@@ -104,7 +104,10 @@ fn strips_become_faces() {
     assert_eq!(faces(&read.mesh)[0], [0, 1, 3, 2]);
     assert_eq!(read.mesh.polygons.len(), 4);
     let lost = io::losses(&read, Format::Ply).join("; ");
-    assert!(lost.contains("3 of the values per face"), "{lost}");
+    assert!(
+        lost.contains("which 3 faces have no value of 'mark'"),
+        "{lost}"
+    );
     assert_eq!(again(&read).mesh, read.mesh);
 }
 
@@ -167,8 +170,8 @@ fn layers_of_other_formats() {
     let lost = io::losses(&document, Format::Ply).join("; ");
     for part in [
         "the property '' (per corner)",
-        "1 of the values per corner",
-        "1 of the values per vertex",
+        "which 1 corners have no texture coordinates",
+        "which 1 vertices have no colour",
         "digits of the texture",
     ] {
         assert!(lost.contains(part), "{lost}");

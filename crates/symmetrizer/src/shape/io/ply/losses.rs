@@ -42,9 +42,9 @@ fn missing(layer: &Layer) -> Option<String> {
         .filter(|&i| layer.values.row(i).is_none())
         .count();
     let of = match layer.on {
-        On::Vertex => "vertex",
-        On::Corner => "corner",
-        On::Face => "face",
+        On::Vertex => "vertices",
+        On::Corner => "corners",
+        On::Face => "faces",
     };
     let what = match layer.role {
         Role::Normal => "normal".into(),
@@ -52,8 +52,7 @@ fn missing(layer: &Layer) -> Option<String> {
         Role::Color(_) => "colour".into(),
         _ => format!("value of '{}'", layer.name),
     };
-    (count > 0)
-        .then(|| format!("that {count} of the values per {of} are missing: {what} 0 instead"))
+    (count > 0).then(|| format!("which {count} {of} have no {what} (they get 0)"))
 }
 
 /// Lists of a face hold two texture coordinates per corner.
