@@ -21,6 +21,18 @@ impl Default for Polygons {
 }
 
 impl Polygons {
+    /// Polygons of which the corners of number f are `starts[f]..starts[f + 1]` of `corners`;
+    /// `starts` begins with 0, never falls and ends with the number of corners.
+    pub(crate) fn from_lists(starts: Vec<u32>, corners: Vec<u32>) -> Self {
+        debug_assert!(starts.first() == Some(&0) && starts.is_sorted());
+        debug_assert!(
+            starts
+                .last()
+                .is_some_and(|&end| end as usize == corners.len())
+        );
+        Self { starts, corners }
+    }
+
     /// Appends a polygon.
     pub fn push(&mut self, polygon: &[u32]) {
         self.corners.extend_from_slice(polygon);

@@ -1,6 +1,9 @@
 //! What a file holds that only its own format can hold again. Plain data: the format's reader
 //! makes it, its writer uses it.
 
+use super::layer::Values;
+use super::numbers::Kind;
+
 /// The rest of a file, by its format.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum Kept {
@@ -33,7 +36,58 @@ pub struct ObjKept {
 
 /// The rest of a PLY file.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct PlyKept {}
+pub struct PlyKept {
+    /// How its numbers are written.
+    pub form: PlyForm,
+    /// The elements in the order of the header.
+    pub elements: Vec<PlyElement>,
+    /// The lines `comment` and `obj_info`, in order.
+    pub remarks: Vec<PlyRemark>,
+}
+
+/// How the numbers of a PLY file are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PlyForm {
+    /// As text.
+    Text,
+    /// Binary, the lowest byte first.
+    #[default]
+    Little,
+    /// Binary, the highest byte first.
+    Big,
+}
+
+/// An element of a PLY file: a kind of things, each with the same properties.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlyElement {
+    /// Its name, such as `edge`.
+    pub name: String,
+    /// What there is for each of these things.
+    pub properties: Vec<PlyProperty>,
+}
+
+/// A property of a PLY element.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlyProperty {
+    /// Its name.
+    pub name: String,
+    /// The type of its numbers.
+    pub kind: Kind,
+    /// Of a list: the type of its length.
+    pub count: Option<Kind>,
+    /// Rows of one number, or lists; `None` of vertices and faces, whose values are the mesh and
+    /// its layers.
+    pub values: Option<Values>,
+}
+
+/// A line of a PLY header that says nothing to a program.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PlyRemark {
+    /// How many lines `format`, `element` and `property` stand before it.
+    pub place: usize,
+    /// The whole line, in whatever encoding it has.
+    pub line: Vec<u8>,
+}
 
 /// The rest of an STL file.
 #[derive(Debug, Clone, PartialEq, Default)]

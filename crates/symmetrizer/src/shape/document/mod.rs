@@ -9,7 +9,10 @@ mod layer;
 mod names;
 mod numbers;
 
-pub use kept::{GltfKept, Kept, ObjKept, PlyKept, StlKept, ThreeMfBlock, ThreeMfKept};
+pub use kept::{
+    GltfKept, Kept, ObjKept, PlyElement, PlyForm, PlyKept, PlyProperty, PlyRemark, StlKept,
+    ThreeMfBlock, ThreeMfKept,
+};
 pub use layer::{Layer, MorphPart, NO_ROW, On, Role, Values};
 pub use names::NameList;
 pub use numbers::{Kind, Numbers};

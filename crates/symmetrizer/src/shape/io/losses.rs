@@ -17,7 +17,7 @@ pub(super) fn of_kept(document: &Document, format: Format) -> Vec<String> {
             let statements = counted(kept.statements.len(), "line, point or other statement");
             libraries.chain(statements).collect()
         }
-        (Kept::Ply(_), _) => Vec::new(),
+        (Kept::Ply(kept), _) => super::ply::of_kept(kept),
         (Kept::Gltf(_), _) => Vec::new(),
         (Kept::ThreeMf(_), Format::ThreeMf) => Vec::new(),
         (Kept::ThreeMf(kept), _) => kept.besides.clone(),

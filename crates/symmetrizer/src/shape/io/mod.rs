@@ -9,7 +9,6 @@ mod losses;
 mod obj;
 mod off;
 mod ply;
-mod ply_elements;
 mod stl;
 mod temporary;
 mod text;
@@ -167,7 +166,7 @@ fn decode_beside(
     input::check_size(bytes.len() as u64)?;
     let document = match format {
         Format::Obj => obj::decode(&bytes, strictness),
-        Format::Ply => ply::decode(&bytes).map(Document::from),
+        Format::Ply => ply::decode(&bytes),
         Format::Off => off::decode(&bytes),
         Format::Stl => stl::decode(&bytes),
         Format::Gltf | Format::Glb => gltf::decode(bytes, folder),
@@ -202,7 +201,7 @@ pub fn encode(document: &Document, format: Format, w: &mut dyn Write) -> Result<
     document.mesh.check_corners()?;
     match format {
         Format::Obj => obj::encode(document, w),
-        Format::Ply => ply::encode(&document.mesh, w),
+        Format::Ply => ply::encode(document, w),
         Format::Off => off::encode(document, w),
         Format::Stl => stl::encode(document, w),
         Format::Gltf => gltf::encode_text(document, w),
@@ -218,7 +217,7 @@ pub fn losses(document: &Document, format: Format) -> Vec<String> {
     let mut lost = losses::of_kept(document, format);
     lost.extend(match format {
         Format::Obj => obj::losses(document),
-        Format::Ply => Vec::new(),
+        Format::Ply => ply::losses(document),
         Format::Off => off::losses(document),
         Format::Stl => stl::losses(document),
         Format::Gltf | Format::Glb => gltf::losses(document),

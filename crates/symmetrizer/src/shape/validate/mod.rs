@@ -16,8 +16,8 @@ mod size;
 
 use serde::Serialize;
 
-use crate::shape::mesh::Mesh;
 use crate::shape::Working;
+use crate::shape::mesh::Mesh;
 
 pub use finding::{FIRST, Finding, Place, grouped};
 pub use findings::Findings;
