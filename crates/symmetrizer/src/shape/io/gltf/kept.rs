@@ -76,7 +76,11 @@ fn follows((layer, old): (&Layer, &Layer)) -> bool {
 pub(in crate::shape::io) fn lost_elsewhere(kept: &GltfKept) -> Vec<String> {
     let json = &kept.json;
     let count = |key: &str| list(json, key).len();
-    let looks = list(json, "materials").iter().filter(|m| has_look(m));
+    let looks = list(json, "materials")
+        .iter()
+        .filter(|m| has_look(m))
+        .count();
+    let looks = (looks > 0).then(|| format!("what materials look like, {looks} in all"));
     let lights = json.pointer("/extensions/KHR_lights_punctual");
     let lights = lights.map_or(0, |l| list(l, "lights").len());
     let lost = [
@@ -84,7 +88,7 @@ pub(in crate::shape::io) fn lost_elsewhere(kept: &GltfKept) -> Vec<String> {
         counted(count("skins"), "skeleton"),
         counted(count("cameras"), "camera"),
         counted(lights, "light"),
-        counted(looks.count(), "material's look"),
+        looks,
         counted(count("textures"), "texture"),
         counted(count("scenes").saturating_sub(1), "further scene"),
     ];
