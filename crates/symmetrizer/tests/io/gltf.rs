@@ -515,10 +515,10 @@ fn buffers_lie_beside_the_file_only() {
 #[test]
 fn damaged_bytes_never_panic() {
     let whole = written(&rich(), Format::Glb);
-    for end in 0..whole.len() {
+    for end in (0..whole.len()).step_by(3) {
         let _ = io::decode(whole[..end].to_vec(), Format::Glb);
     }
-    for at in 0..whole.len() {
+    for at in (0..whole.len()).step_by(5) {
         for value in [0, b'-', b'9', 0xFF] {
             let mut bytes = whole.clone();
             bytes[at] = value;

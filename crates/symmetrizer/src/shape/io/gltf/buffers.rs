@@ -19,18 +19,27 @@ pub(super) fn load(
     folder: Option<&Path>,
 ) -> Result<Vec<Arc<Vec<u8>>>> {
     refuse_compressed(json)?;
+    let buffers = all(json, binary, folder)?;
+    let objects = json.get_mut("buffers").and_then(Value::as_array_mut);
+    for buffer in objects.into_iter().flatten() {
+        if let Some(buffer) = buffer.as_object_mut() {
+            buffer.shift_remove("uri");
+        }
+    }
+    Ok(buffers)
+}
+
+fn all(json: &Value, binary: Option<&[u8]>, folder: Option<&Path>) -> Result<Vec<Arc<Vec<u8>>>> {
     let mut files = BTreeMap::new();
-    let mut total = 0;
+    let mut total = 0_u64;
     let mut buffers = Vec::new();
     for (i, buffer) in list(json, "buffers").iter().enumerate() {
         let place = format!("buffer {i}");
         let length = required(buffer, "byteLength", &place)?;
-        total = u64::saturating_add(total, length as u64);
+        total = total.saturating_add(length as u64);
         if total > u64::from(u32::MAX) {
-            return Err(Error::input(
-                format!("the buffers up to {place} have more than 4 GiB"),
-                "simplify the mesh first",
-            ));
+            let what = format!("the buffers up to {place} have more than 4 GiB");
+            return Err(Error::input(what, "simplify the mesh first"));
         }
         let uri = buffer.get("uri").and_then(Value::as_str);
         let bytes = match (uri, binary) {
@@ -40,6 +49,7 @@ pub(super) fn load(
                 return Err(Error::input(what, DAMAGED));
             }
             (Some(uri), _) if is_data(uri) => Arc::new(embedded(uri, &place)?),
+            // A file that several buffers name is read once.
             (Some(uri), _) => match files.get(&(uri, length)) {
                 Some(known) => Arc::clone(known),
                 None => {
@@ -50,11 +60,6 @@ pub(super) fn load(
             },
         };
         buffers.push(of_length(bytes, length, &place)?);
-    }
-    for buffer in json["buffers"].as_array_mut().into_iter().flatten() {
-        if let Some(buffer) = buffer.as_object_mut() {
-            buffer.shift_remove("uri");
-        }
     }
     Ok(buffers)
 }

@@ -212,7 +212,8 @@ fn merged(json: &mut Value, mut buffers: Vec<Arc<Vec<u8>>>) -> Option<Arc<Vec<u8
         starts.push(bytes.len());
         bytes.extend_from_slice(buffer);
     }
-    for view in json["bufferViews"].as_array_mut().into_iter().flatten() {
+    let views = json.get_mut("bufferViews").and_then(Value::as_array_mut);
+    for view in views.into_iter().flatten() {
         let of = view.get("buffer").and_then(super::json::as_whole);
         let offset = view.get("byteOffset").and_then(super::json::as_whole);
         if let Some(start) = of.and_then(|of| starts.get(of)) {

@@ -67,7 +67,7 @@ pub(super) fn element<'a>(
 pub(super) fn as_whole(value: &Value) -> Option<usize> {
     let whole = value.as_u64().or_else(|| {
         let number = value.as_f64()?;
-        let fits = number >= 0.0 && number < 9e15 && number.fract() == 0.0;
+        let fits = (0.0..9e15).contains(&number) && number.fract() == 0.0;
         fits.then_some(number as u64)
     })?;
     usize::try_from(whole).ok()

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::container::{Contents, File};
-use super::json::{list, members};
+use super::json::list;
 use super::read::{Shape, shape};
 use super::unshared;
 use crate::error::Result;
@@ -97,5 +97,5 @@ pub(in crate::shape::io) fn lost_elsewhere(kept: &GltfKept) -> Vec<String> {
 
 fn has_look(material: &Value) -> bool {
     let mut keys = material.as_object().into_iter().flat_map(|m| m.keys());
-    keys.any(|key| key != "name") || members(material, "extensions").next().is_some()
+    keys.any(|key| key != "name")
 }

@@ -37,8 +37,26 @@ impl Chunk {
     }
 }
 
-/// Fails where values of a role cannot have `width` numbers.
-pub(super) fn check_width(role: Role, accessor: &Accessor) -> Result<()> {
+/// The accessor of an attribute of the `count` vertices of `place`.
+pub(super) fn of_vertices(
+    file: &File,
+    index: usize,
+    count: usize,
+    role: Role,
+    place: &str,
+) -> Result<Accessor> {
+    let accessor = Accessor::new(file, index, place)?;
+    check_width(role, &accessor)?;
+    if accessor.count == count {
+        return Ok(accessor);
+    }
+    let given = accessor.count;
+    let what = format!("accessor {index} has {given} values for the {count} vertices of {place}");
+    Err(Error::input(what, super::json::DAMAGED))
+}
+
+/// Fails where values of a role cannot have as many numbers as an accessor has.
+fn check_width(role: Role, accessor: &Accessor) -> Result<()> {
     let width = accessor.width;
     let fits = match role {
         Role::Normal | Role::Morph(..) => width == 3,

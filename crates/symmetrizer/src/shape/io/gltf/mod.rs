@@ -29,6 +29,8 @@ mod read;
 mod replace;
 mod scene;
 mod seams;
+mod skin;
+mod span;
 mod unshared;
 mod writer;
 

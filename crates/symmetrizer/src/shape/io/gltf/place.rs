@@ -188,15 +188,14 @@ impl Frame {
             .flatten()
     }
 
-    /// The pseudo-inverse: moves only what the map does not flatten.
+    /// What comes nearest to an inverse: moves only what the map does not flatten.
     fn best_inverse(&self) -> Matrix3<f64> {
-        if !self.linear.iter().all(|c| c.is_finite()) {
-            return Matrix3::zeros();
-        }
-        let least = 1e-9 * self.linear.norm().max(f64::MIN_POSITIVE);
-        self.linear
-            .pseudo_inverse(least)
-            .unwrap_or_else(|_| Matrix3::zeros())
+        let transposed = self.linear.transpose();
+        let damping = Matrix3::from_diagonal_element(1e-12 * self.linear.norm_squared());
+        let inverse = (transposed * self.linear + damping).try_inverse();
+        let best = inverse.map(|i| i * transposed);
+        best.filter(|b| b.iter().all(|c| c.is_finite()))
+            .unwrap_or_else(Matrix3::zeros)
     }
 }
 

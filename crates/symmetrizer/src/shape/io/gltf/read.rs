@@ -3,18 +3,18 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use nalgebra::Matrix4;
 use serde_json::Value;
 
 use super::accessor::Accessor;
 use super::attribute::{Attribute, direction};
 use super::container::File;
 use super::faces::Faces;
-use super::json::{DAMAGED, as_whole, element, list, name, whole};
-use super::layers::{Chunk, Tracks, check_width};
-use super::parts::{Part, Parts};
-use super::place::{Frame, Place, Skinned};
-use super::scene::{Scene, affine};
+use super::json::{DAMAGED, list, name, whole};
+use super::layers::{Chunk, Tracks, of_vertices};
+use super::parts::Parts;
+use super::place::{Frame, Place};
+use super::scene::Scene;
+use super::skin::Skins;
 use crate::error::{Error, Result};
 use crate::geom::Point;
 use crate::shape::document::{Document, GltfKept, Kept, Layer, NO_ROW, Numbers, Role};
@@ -69,7 +69,7 @@ pub(super) fn shape(file: &File) -> Result<Shape> {
         tracks: Tracks::default(),
         blocks: Vec::new(),
         parts: BTreeMap::new(),
-        skins: BTreeMap::new(),
+        skins: Skins::default(),
     };
     for &node in &scene.shown {
         let object = &list(&file.contents.json, "nodes")[node];
@@ -88,7 +88,7 @@ struct Reader<'a> {
     tracks: Tracks,
     blocks: Vec<Block>,
     parts: BTreeMap<usize, Rc<Parts>>,
-    skins: BTreeMap<usize, Rc<Vec<Matrix4<f64>>>>,
+    skins: Skins,
 }
 
 impl<'a> Reader<'a> {
@@ -140,95 +140,48 @@ impl<'a> Reader<'a> {
             let what = "the scene has more vertices than fit in 32 bits";
             return Err(Error::input(what, "simplify the meshes first"));
         }
-        let skinned = self.skin(node, &parts.parts[part], count)?;
+        let skinned = self.skins.place(
+            self.file,
+            &self.scene.worlds,
+            node,
+            &parts.parts[part],
+            count,
+        )?;
         let at = skinned.unwrap_or_else(|| Place::Fixed(Frame::new(&self.scene.worlds[node])));
         let local = accessor.floats(self.file)?;
         let points = local.chunks_exact(3).map(Point::from_slice).enumerate();
         self.positions
             .extend(points.map(|(v, p)| at.frame(v).position(p)));
-        for (attribute, accessor) in &attributes[1..] {
-            self.file.charge(16)?;
-            if let Some((role, name)) = attribute.role() {
-                let accessor = self.attribute(*accessor, count, role, &place)?;
-                let mut chunk = Chunk::new(self.file, &accessor, role, first)?;
-                turn(role, &at, &mut chunk);
-                self.tracks.add(attribute, role, name, chunk);
-            }
-        }
-        self.blocks.push(Block {
+        let block = Block {
             node,
             mesh,
             part,
             first,
             count,
             place: at,
-        });
+        };
+        self.attributes(&block, &attributes[1..], &place)?;
+        self.blocks.push(block);
         Ok(())
     }
 
-    /// The accessor of an attribute of `count` vertices.
-    fn attribute(&self, index: usize, count: usize, role: Role, place: &str) -> Result<Accessor> {
-        let accessor = Accessor::new(self.file, index, place)?;
-        check_width(role, &accessor)?;
-        if accessor.count == count {
-            return Ok(accessor);
+    /// Reads what the vertices of a block have besides their positions.
+    fn attributes(
+        &mut self,
+        block: &Block,
+        attributes: &[(Attribute, usize)],
+        place: &str,
+    ) -> Result<()> {
+        for (attribute, accessor) in attributes {
+            self.file.charge(16)?;
+            if let Some((role, name)) = attribute.role() {
+                let accessor = of_vertices(self.file, *accessor, block.count, role, place)?;
+                let mut chunk = Chunk::new(self.file, &accessor, role, block.first)?;
+                turn(role, &block.place, &mut chunk);
+                self.tracks.add(attribute, role, name, chunk);
+            }
         }
-        let given = accessor.count;
-        let what =
-            format!("accessor {index} has {given} values for the {count} vertices of {place}");
-        Err(Error::input(what, DAMAGED))
-    }
-
-    /// The skin of a part at a node; `None` where the node has no skin or the vertices no joints.
-    fn skin(&mut self, node: usize, part: &Part, count: usize) -> Result<Option<Place>> {
-        let object = &list(self.json(), "nodes")[node];
-        let Some(skin) = whole(object, "skin", &format!("node {node}"))? else {
-            return Ok(None);
-        };
-        let joints = self.joints(skin, node)?;
-        let place = format!("the mesh of node {node}");
-        let mut sets = Vec::new();
-        for n in 0.. {
-            let of = |set: &str| part.accessor(&Attribute::Base(format!("{set}_{n}")));
-            let (Some(names), Some(weights)) = (of("JOINTS"), of("WEIGHTS")) else {
-                break;
-            };
-            let names = self.attribute(names, count, Role::Joints(n), &place)?;
-            let weights = self.attribute(weights, count, Role::Weights(n), &place)?;
-            let set = (names.numbers(self.file)?, weights.floats(self.file)?);
-            sets.push((checked(set.0, joints.len(), skin, &place)?, set.1));
-        }
-        let skinned = Place::Skinned(Skinned { joints, sets });
-        Ok(part
-            .accessor(&Attribute::Base("JOINTS_0".into()))
-            .map(|_| skinned))
-    }
-
-    /// For each joint of a skin: world from mesh coordinates.
-    fn joints(&mut self, skin: usize, node: usize) -> Result<Rc<Vec<Matrix4<f64>>>> {
-        if let Some(joints) = self.skins.get(&skin) {
-            return Ok(Rc::clone(joints));
-        }
-        let object = element(self.json(), "skins", skin, &format!("node {node}"))?;
-        let place = format!("skin {skin}");
-        let nodes = list(object, "joints");
-        self.file.charge(16 * nodes.len())?;
-        let inverse = match whole(object, "inverseBindMatrices", &place)? {
-            Some(accessor) => bind_matrices(self.file, accessor, nodes.len(), &place)?,
-            None => vec![Matrix4::identity(); nodes.len()],
-        };
-        let mut joints = Vec::new();
-        for (joint, inverse) in nodes.iter().zip(inverse) {
-            let world = as_whole(joint).and_then(|j| self.scene.worlds.get(j));
-            let world = world.ok_or_else(|| {
-                let what = format!("joint {} of {place} names no node", joints.len());
-                Error::input(what, DAMAGED)
-            })?;
-            joints.push(world * inverse);
-        }
-        let joints = Rc::new(joints);
-        self.skins.insert(skin, Rc::clone(&joints));
-        Ok(joints)
+        Ok(())
     }
 
     fn finish(self) -> Result<Shape> {
@@ -245,37 +198,6 @@ impl<'a> Reader<'a> {
             parts: self.parts,
             layer_of,
         })
-    }
-}
-
-fn bind_matrices(
-    file: &File,
-    accessor: usize,
-    count: usize,
-    place: &str,
-) -> Result<Vec<Matrix4<f64>>> {
-    let accessor = Accessor::new(file, accessor, place)?;
-    if accessor.width != 16 || accessor.count < count {
-        let what = format!("{place} has {count} joints, but not as many bind matrices");
-        return Err(Error::input(what, DAMAGED));
-    }
-    let numbers = accessor.floats(file)?;
-    let matrices = numbers.as_chunks::<16>().0.iter();
-    Ok(matrices.take(count).map(affine).collect())
-}
-
-/// Joints, all of which the skin has.
-fn checked(joints: Numbers, count: usize, skin: usize, place: &str) -> Result<Vec<f64>> {
-    match joints.iter().position(|j| !(j >= 0.0 && j < count as f64)) {
-        None => Ok(joints.iter().collect()),
-        Some(i) => Err(Error::input(
-            format!(
-                "vertex {} of {place} follows joint {}, but skin {skin} has only {count}",
-                i / 4,
-                joints.get(i)
-            ),
-            DAMAGED,
-        )),
     }
 }
 

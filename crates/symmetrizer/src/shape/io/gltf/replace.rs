@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use serde_json::{Value, json};
 
-use super::accessor::{Accessor, Span, view_range};
+use super::accessor::Accessor;
 use super::attribute::Attribute;
 use super::columns::set_bounds;
 use super::container::{Contents, File};
@@ -14,6 +14,7 @@ use super::json::{as_whole, list, members, object_mut};
 use super::parts::{Part, Parts};
 use super::patch::Patch;
 use super::read::Shape;
+use super::span::{Span, view_range};
 use super::writer::{Target, Writer, bytes_of};
 use crate::error::Result;
 use crate::shape::document::Kind;
