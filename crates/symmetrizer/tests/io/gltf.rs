@@ -227,7 +227,7 @@ fn nodes_place_meshes_and_mirrors_turn_faces() {
         "nodes": [
             { "children": [1], "translation": [1, 2, 3] },
             { "mesh": 0, "scale": [-2, 1, 1] },
-            { "mesh": 0, "rotation": [0, 0, 0.7071067811865476, 0.7071067811865476] },
+            { "mesh": 0, "rotation": [0, 0, 1, 1] },
         ],
     })));
     assert_eq!(faces(&read.mesh), [[0, 2, 1], [3, 4, 5]]);

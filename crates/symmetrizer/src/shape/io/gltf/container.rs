@@ -33,7 +33,7 @@ pub(super) struct File {
 /// A mesh that is used often gives many times its bytes, so that small files may give more.
 const NUMBERS_PER_BYTE: u64 = 256;
 const NUMBERS_PER_BYTE_OF_LARGE: u64 = 8;
-const LARGE: u64 = 1 << 28;
+const LARGE: u64 = 1 << 26;
 
 impl File {
     fn new(contents: Contents, json_bytes: usize) -> Self {

@@ -4,9 +4,9 @@
 //! is kept whole; written as glTF again, only the elements that have changed since are replaced, and
 //! everything else (materials, pictures, animations, skins, unknown keys) stays.
 //!
-//! The JSON is read as plain values and the accessors are decoded here: the `gltf` crate iterates
-//! accessors without checking their ranges against the buffers, panics on some damaged files, and
-//! drops the keys that it does not know.
+//! The JSON is read as plain values and the accessors are decoded here, because a deserialised form
+//! would drop the keys that it does not know, and because to guard a reader of accessors against
+//! damaged ranges takes as much code as to read them.
 //!
 //! Positions and morph targets are those of the file's rest pose: nodes as they stand, skins
 //! applied, morph weights and animations not.
