@@ -1,6 +1,8 @@
 //! What a file holds that only its own format can hold again. Plain data: the format's reader
 //! makes it, its writer uses it.
 
+use std::sync::Arc;
+
 use super::layer::Values;
 use super::numbers::Kind;
 
@@ -98,9 +100,15 @@ pub struct StlKept {
     pub header: Vec<u8>,
 }
 
-/// The rest of a glTF file.
+/// A glTF file as it came: mesh and layers are read from it again when it is written, so that only
+/// what has changed since is replaced.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct GltfKept {}
+pub struct GltfKept {
+    /// The JSON, without the `uri` of the buffers.
+    pub json: serde_json::Value,
+    /// The bytes of each buffer that the JSON lists.
+    pub buffers: Vec<Arc<Vec<u8>>>,
+}
 
 /// The rest of a 3MF file.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -18,7 +18,8 @@ pub(super) fn of_kept(document: &Document, format: Format) -> Vec<String> {
             libraries.chain(statements).collect()
         }
         (Kept::Ply(kept), _) => super::ply::of_kept(kept),
-        (Kept::Gltf(_), _) => Vec::new(),
+        (Kept::Gltf(_), Format::Gltf | Format::Glb) => Vec::new(),
+        (Kept::Gltf(kept), _) => super::gltf::lost_elsewhere(kept),
         (Kept::ThreeMf(_), Format::ThreeMf) => Vec::new(),
         (Kept::ThreeMf(kept), _) => kept.besides.clone(),
     }
