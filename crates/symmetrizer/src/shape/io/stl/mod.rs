@@ -56,8 +56,6 @@ pub(super) fn losses(document: &Document) -> Vec<String> {
 fn holds(layer: &Layer, text: bool) -> bool {
     match layer.role {
         Role::Group => text && layer.on == On::Face,
-        // Recomputed.
-        Role::Normal => true,
         _ => !text && binary::is_attribute(layer),
     }
 }
