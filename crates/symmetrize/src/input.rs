@@ -58,6 +58,11 @@ impl Input {
         }
     }
 
+    /// The error, with the file's name where it is about the shape.
+    pub fn blame(&self, error: Error) -> Error {
+        error.in_file(self.name())
+    }
+
     /// As the user named it.
     pub fn name(&self) -> String {
         match self {

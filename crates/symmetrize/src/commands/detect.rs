@@ -38,7 +38,7 @@ pub fn detect(args: &DetectArgs, desk: &Desk) -> Result<Answer> {
     let picture_file = picture.map(PictureFile::reserve).transpose()?;
     let mut ctx = desk.context();
     let mesh = args.input.read(&mut ctx)?.mesh;
-    let found = detect_in(&mesh, &params, &mut ctx)?;
+    let found = detect_in(&mesh, &params, &mut ctx).map_err(|e| args.input.blame(e))?;
     let mut complete = Vec::new();
     if let Some(file) = picture_file {
         let draw = || file.write(&pictures::views(&found, &args.input.title()));

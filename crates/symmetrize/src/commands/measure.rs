@@ -42,7 +42,8 @@ pub fn measure(args: &MeasureArgs, desk: &Desk) -> Result<Answer> {
         .as_ref()
         .map(|i| Ok(i.read(&mut ctx)?.mesh))
         .transpose()?;
-    let measured = measure_in(&mesh, original.as_ref(), &mut ctx)?;
+    let measured =
+        measure_in(&mesh, original.as_ref(), &mut ctx).map_err(|e| args.input.blame(e))?;
     let mut report = MeasureReport::new(&mesh, &measured, &ctx);
     report.input.file = Some(args.input.name());
     report.against = args.against.as_ref().map(Input::name);

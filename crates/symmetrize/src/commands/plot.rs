@@ -35,7 +35,7 @@ pub fn plot(args: &PlotArgs, desk: &Desk) -> Result<Answer> {
     let file = PictureFile::reserve(&args.output)?;
     let mut ctx = desk.context();
     let mesh = args.input.read(&mut ctx)?.mesh;
-    let found = detect_in(&mesh, &params, &mut ctx)?;
+    let found = detect_in(&mesh, &params, &mut ctx).map_err(|e| args.input.blame(e))?;
     let title = format!(
         "{}: {} votes, {} symmetries",
         args.input.title(),

@@ -45,7 +45,7 @@ pub fn render(args: &RenderArgs, desk: &Desk) -> Result<Answer> {
     let file = PictureFile::reserve(&args.output)?;
     let mut ctx = desk.context();
     let mesh = args.input.read(&mut ctx)?.mesh;
-    let measured = measure_in(&mesh, None, &mut ctx)?;
+    let measured = measure_in(&mesh, None, &mut ctx).map_err(|e| args.input.blame(e))?;
     let title = args.title.clone().unwrap_or_else(|| args.input.title());
     let shown = Shown {
         title: &title,

@@ -59,7 +59,7 @@ pub fn run(args: &RunArgs, desk: &Desk) -> Result<Answer> {
     let files = Files::reserve(args)?;
     let mut ctx = desk.context();
     let document = args.input.read(&mut ctx)?;
-    let mut job = symmetrize(&document.mesh, &params, &mut ctx)?;
+    let mut job = symmetrize(&document.mesh, &params, &mut ctx).map_err(|e| args.input.blame(e))?;
     job.report.input.shape.file = Some(args.input.name());
     let found = job.outcome != Outcome::NoSymmetry;
     let shape = found || args.write_unchanged;

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use symmetrizer::Error;
+use symmetrizer::shape::Mesh;
 use symmetrizer::shape::io::{self, Format};
 
 use crate::common;
@@ -26,33 +27,56 @@ fn files_round_trip_by_extension() {
     }
 }
 
+/// The files of `formats` that hold one shape.
+const SPOTS: [&str; 10] = [
+    "spot.obj",
+    "spot.off",
+    "spot.glb",
+    "spot.gltf",
+    "spot.3mf",
+    "spot_ascii.ply",
+    "spot_binary_le.ply",
+    "spot_binary_be_double.ply",
+    "spot_ascii.stl",
+    "spot_binary.stl",
+];
+
+/// Triangle by triangle the same corners, to single precision.
+#[track_caller]
+fn assert_same_shape(other: &Mesh, reference: &Mesh, what: &str) {
+    assert_eq!(other.positions.len(), reference.positions.len(), "{what}");
+    assert_eq!(other.polygons.len(), reference.polygons.len(), "{what}");
+    for ((t, _), (r, _)) in other.triangles().zip(reference.triangles()) {
+        for (v, w) in t.into_iter().zip(r) {
+            let (a, b) = (other.positions[v as usize], reference.positions[w as usize]);
+            assert!((a - b).norm() < 1e-6, "{what}");
+        }
+    }
+}
+
 #[test]
-fn one_shape_in_every_format() {
+fn one_shape_from_each_format_to_each() {
     let Some(folder) = common::data("formats") else {
         return;
     };
     let reference = io::read(&folder.join("spot.obj")).unwrap().mesh;
-    for name in [
-        "spot.off",
-        "spot_ascii.ply",
-        "spot_binary_le.ply",
-        "spot_binary_be_double.ply",
-    ] {
-        let other = io::read(&folder.join(name)).unwrap().mesh;
-        assert_eq!(other.polygons, reference.polygons, "{name}");
-        for (a, b) in other.positions.iter().zip(&reference.positions) {
-            assert!((a - b).norm() < 1e-6, "{name}");
-        }
-    }
-    for name in ["spot_ascii.stl", "spot_binary.stl"] {
-        let other = io::read(&folder.join(name)).unwrap().mesh;
-        assert_eq!(other.positions.len(), reference.positions.len(), "{name}");
-        for ((t, _), (r, _)) in other.triangles().zip(reference.triangles()) {
-            for (v, w) in t.into_iter().zip(r) {
-                let (a, b) = (other.positions[v as usize], reference.positions[w as usize]);
-                assert!((a - b).norm() < 1e-6, "{name}");
+    for name in SPOTS {
+        let read = io::read(&folder.join(name)).unwrap();
+        assert_same_shape(&read.mesh, &reference, name);
+        for format in Format::ALL.into_iter().filter(|f| *f != Format::Xyz) {
+            let what = format!("{name} as {format:?}");
+            let mut bytes = Vec::new();
+            io::encode(&read, format, &mut bytes).unwrap();
+            let again = io::decode(bytes, format).unwrap();
+            assert_same_shape(&again.mesh, &reference, &what);
+            if format != Format::Stl && !name.ends_with("stl") {
+                assert_eq!(again.mesh.polygons, reference.polygons, "{what}");
             }
         }
+        let mut bytes = Vec::new();
+        io::encode(&read, Format::Xyz, &mut bytes).unwrap();
+        let points = io::decode(bytes, Format::Xyz).unwrap().mesh;
+        assert_eq!(points.positions, read.mesh.positions, "{name} as points");
     }
 }
 

@@ -138,6 +138,23 @@ pub(super) fn shown(word: &[u8]) -> String {
     text.escape_debug().to_string()
 }
 
+/// A name or remark of a file, as [`one_line`] has it.
+pub(super) fn label(bytes: &[u8]) -> String {
+    one_line(&String::from_utf8_lossy(bytes))
+}
+
+/// A text on one line, without blanks around it. Control characters become replacement characters: a
+/// blank in their place could make a keyword of what is none.
+pub(super) fn one_line(text: &str) -> String {
+    let tame = |c: char| match c {
+        c if c.is_ascii_whitespace() => ' ',
+        c if c.is_control() => char::REPLACEMENT_CHARACTER,
+        c => c,
+    };
+    let text: String = text.chars().map(tame).collect();
+    text.trim_matches(' ').to_owned()
+}
+
 /// The text without a byte-order mark, as UTF-8 where the mark says UTF-16.
 ///
 /// # Errors

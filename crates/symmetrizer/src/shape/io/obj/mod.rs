@@ -15,7 +15,7 @@ use self::faces::Faces;
 use self::lines::Lines;
 use self::vertices::{Pool, Vertices};
 use super::Strictness;
-use super::text::{at_line, plain};
+use super::text::{at_line, label, plain};
 use crate::error::Result;
 use crate::shape::document::{Document, Kept, Layer, ObjKept, On, Role};
 use crate::shape::mesh::Mesh;
@@ -75,7 +75,7 @@ impl Reader {
                 Ok(())
             }
             _ => {
-                self.kept.statements.push(trimmed(text));
+                self.kept.statements.push(label(text));
                 Ok(())
             }
         }
@@ -83,7 +83,7 @@ impl Reader {
 
     /// Comments at the head of a file say whose it is.
     fn comment(&mut self, text: &[u8]) {
-        let text = trimmed(text);
+        let text = label(text);
         if !self.begun && text.starts_with('#') {
             self.kept.comments.push(text);
         }
@@ -138,9 +138,5 @@ fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
 fn rest(text: &[u8]) -> String {
     let text = text.trim_ascii_start();
     let keyword = text.iter().take_while(|b| !b.is_ascii_whitespace()).count();
-    trimmed(&text[keyword..])
-}
-
-fn trimmed(text: &[u8]) -> String {
-    String::from_utf8_lossy(text.trim_ascii()).into_owned()
+    label(&text[keyword..])
 }

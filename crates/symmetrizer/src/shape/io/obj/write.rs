@@ -3,6 +3,7 @@
 use std::io::{BufWriter, Result as IoResult, Write};
 
 use super::super::losses::of_layers;
+use super::super::text::one_line;
 use crate::error::{Error, Result};
 use crate::shape::document::{Document, Kept, Layer, NO_ROW, Numbers, On, Role, Values};
 
@@ -19,7 +20,7 @@ pub(in super::super) fn encode(document: &Document, w: &mut dyn Write) -> Result
         faces(document, [&textures, &normals], &mut w)?;
         if let Kept::Obj(kept) = &document.kept {
             for statement in &kept.statements {
-                writeln!(w, "{statement}")?;
+                line(statement, &mut w)?;
             }
         }
         w.flush()
@@ -49,10 +50,10 @@ fn head(document: &Document, w: &mut dyn Write) -> IoResult<()> {
         return Ok(());
     };
     for comment in &kept.comments {
-        writeln!(w, "{comment}")?;
+        line(comment, w)?;
     }
     for library in &kept.libraries {
-        writeln!(w, "mtllib {library}")?;
+        line(&format!("mtllib {library}"), w)?;
     }
     Ok(())
 }
@@ -147,7 +148,7 @@ fn faces(document: &Document, rows: [&Rows<'_>; 2], w: &mut dyn Write) -> IoResu
             if of[f] != *now {
                 *now = of[f];
                 let name = layer.values.name(f).unwrap_or("");
-                writeln!(w, "{}", format!("{keyword} {}", one_line(name)).trim_end())?;
+                line(&format!("{keyword} {}", one_line(name)), w)?;
             }
         }
         write!(w, "f")?;
@@ -166,7 +167,9 @@ fn faces(document: &Document, rows: [&Rows<'_>; 2], w: &mut dyn Write) -> IoResu
     Ok(())
 }
 
-/// A name without line breaks.
-fn one_line(name: &str) -> String {
-    name.replace(['\n', '\r'], " ")
+/// A line, with a blank after a backslash at its end, which would join it with the next.
+fn line(text: &str, w: &mut dyn Write) -> IoResult<()> {
+    let text = text.trim_end();
+    let end = if text.ends_with('\\') { " " } else { "" };
+    writeln!(w, "{text}{end}")
 }

@@ -78,14 +78,15 @@ impl Columns {
     }
 }
 
-/// Colours of three or four numbers: whole ones up to 255, or from 0 to 1.
+/// Colours of three or four numbers, where there are any: whole ones up to 255, or from 0 to 1.
 #[derive(Default)]
 pub(super) struct Colors {
-    width: usize,
-    numbers: Vec<f64>,
-    rows: Vec<u32>,
+    of: Vec<Option<Color>>,
     fractions: bool,
 }
+
+/// Red, green and blue, perhaps with an opacity.
+type Color = ([f64; 3], Option<f64>);
 
 impl Colors {
     /// Takes what follows a face.
@@ -96,38 +97,44 @@ impl Colors {
 
     /// Takes a colour, or nothing. One number is an index into a colour map that no file has.
     fn push(&mut self, words: &[&[u8]], line: usize) -> Result<()> {
-        if self.width == 0 && matches!(words.len(), 3 | 4) {
-            self.width = words.len();
+        let mut values = Vec::with_capacity(4);
+        if words.len() >= 3 {
+            for word in words.iter().take(4) {
+                let value = number(word, line)?;
+                let whole = word.iter().all(u8::is_ascii_digit) && value <= 255.0;
+                self.fractions |= !whole;
+                values.push(value);
+            }
         }
-        if self.width == 0 || words.len() < self.width {
-            self.rows.push(NO_ROW);
-            return Ok(());
-        }
-        self.rows.push((self.numbers.len() / self.width) as u32);
-        for word in &words[..self.width] {
-            let value = number(word, line)?;
-            let whole = word.iter().all(u8::is_ascii_digit) && value <= 255.0;
-            self.fractions |= !whole;
-            self.numbers.push(value);
-        }
+        self.of.push(match values[..] {
+            [r, g, b] => Some(([r, g, b], None)),
+            [r, g, b, a] => Some(([r, g, b], Some(a))),
+            _ => None,
+        });
         Ok(())
     }
 
-    /// The layer, where there are colours.
+    /// The layer, where there are colours; with an opacity for all where one has it.
     pub fn layer(self, on: On) -> Option<Layer> {
-        let width = self.width;
-        if width == 0 {
-            return None;
-        }
-        let numbers = match self.fractions {
-            true => Numbers::F64(self.numbers),
-            false => Numbers::U8(self.numbers.iter().map(|&n| n as u8).collect()),
+        let colors = || self.of.iter().flatten();
+        colors().next()?;
+        let width = if colors().any(|c| c.1.is_some()) {
+            4
+        } else {
+            3
         };
-        let values = match self.rows.contains(&NO_ROW) {
+        let opaque = if self.fractions { 1.0 } else { 255.0 };
+        let rows = colors().map(|([r, g, b], a)| [*r, *g, *b, a.unwrap_or(opaque)]);
+        let flat: Vec<f64> = rows.flat_map(|row| row.into_iter().take(width)).collect();
+        let numbers = match self.fractions {
+            true => Numbers::F64(flat),
+            false => Numbers::U8(flat.iter().map(|&n| n as u8).collect()),
+        };
+        let values = match self.of.contains(&None) {
             true => Values::Pool {
                 width,
                 numbers,
-                rows: self.rows,
+                rows: counted(&self.of),
             },
             false => Values::Rows { width, numbers },
         };
@@ -138,4 +145,11 @@ impl Colors {
             values,
         })
     }
+}
+
+/// The row of each element that has a colour: they are numbered as they come.
+fn counted(of: &[Option<Color>]) -> Vec<u32> {
+    let mut next = 0..;
+    let row = |color: &Option<Color>| color.and_then(|_| next.next()).unwrap_or(NO_ROW);
+    of.iter().map(row).collect()
 }

@@ -3,7 +3,7 @@
 
 use std::io::{BufWriter, Result as IoResult, Write};
 
-use super::super::text::{Part, Words, at_line, shown};
+use super::super::text::{Part, Words, at_line, label, one_line, shown};
 use super::normal;
 use super::weld::Welder;
 use crate::error::{Error, Result};
@@ -45,7 +45,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Document> {
 
 /// The name of a solid, if it has one.
 fn name(rest: &[u8]) -> Option<String> {
-    let name = String::from_utf8_lossy(rest.trim_ascii()).into_owned();
+    let name = label(rest);
     (!name.is_empty()).then_some(name)
 }
 
@@ -90,7 +90,7 @@ pub(super) fn encode(document: &Document, w: &mut dyn Write) -> IoResult<()> {
     let name = |f: u32| group.and_then(|l| l.values.name(f as usize)).unwrap_or("");
     let triangles: Vec<([u32; 3], u32)> = document.mesh.triangles().collect();
     for solid in triangles.chunk_by(|a, b| name(a.1) == name(b.1)) {
-        let name = name(solid[0].1).replace(['\n', '\r'], " ");
+        let name = one_line(name(solid[0].1));
         writeln!(w, "{}", format!("solid {name}").trim_end())?;
         for (corners, _) in solid {
             facet(document, *corners, &mut w)?;
