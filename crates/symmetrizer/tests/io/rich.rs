@@ -9,13 +9,16 @@ use symmetrizer::shape::document::{
 };
 use symmetrizer::shape::mesh::{Mesh, Polygons};
 
+/// Draws a layer.
+type Maker = Box<dyn FnMut(&mut Dice) -> Layer>;
+
 /// A document with the layers that the bits of `mask` choose and values drawn from `seed`.
 pub fn rich(mask: u32, seed: u64) -> Document {
     let mut dice = Dice(Pcg64Mcg::seed_from_u64(seed));
     let mesh = dice.mesh();
     let [vertices, faces] = [mesh.positions.len(), mesh.polygons.len()];
     let corners = mesh.polygons.iter().map(<[u32]>::len).sum();
-    let mut makers: Vec<Box<dyn FnMut(&mut Dice) -> Layer>> = vec![
+    let mut makers: Vec<Maker> = vec![
         Box::new(move |d| layer(On::Vertex, Role::Normal, d.directions(vertices))),
         Box::new(move |d| layer(On::Vertex, Role::Color(0), d.rows(Kind::U8, 4, vertices))),
         Box::new(move |d| {

@@ -39,14 +39,22 @@ pub(super) fn of_polygons(document: &Document) -> Vec<String> {
     (cut > 0).then(|| phrase(cut)).into_iter().collect()
 }
 
-/// Coordinates that change in single precision.
+/// Coordinates that change in single precision. Where the file has been in single precision before,
+/// the rounding of what was moved is not worth a word, unless it is seen.
 pub(super) fn of_precision(document: &Document) -> Vec<String> {
     let coordinates = document.mesh.positions.iter().flat_map(|p| p.iter());
     let change = coordinates.map(|&c| (f64::from(c as f32) - c).abs());
     let most = change.filter(|c| c.is_finite()).fold(0.0, f64::max);
+    let allowed = match document.kept {
+        Kept::Stl(_) | Kept::Gltf(_) => UNSEEN * document.mesh.diagonal(),
+        _ => 0.0,
+    };
     let phrase = |most: f64| format!("digits of the coordinates, which change by up to {most:.1e}");
-    (most > 0.0).then(|| phrase(most)).into_iter().collect()
+    (most > allowed).then(|| phrase(most)).into_iter().collect()
 }
+
+/// A change of coordinates that nobody sees, fraction of D.
+const UNSEEN: f64 = 1e-6;
 
 /// How many vertices no face uses.
 pub(super) fn loose_vertices(document: &Document) -> usize {

@@ -56,10 +56,8 @@ pub(super) fn drop_unused(
     for &v in triangles.iter().flatten() {
         number[v as usize] = Some(0);
     }
-    let mut count = 0;
-    for n in number.iter_mut().flatten() {
+    for (count, n) in (0..).zip(number.iter_mut().flatten()) {
         *n = count;
-        count += 1;
     }
     let mut is_used = number.iter().map(Option::is_some);
     welded.retain(|_| is_used.next().unwrap_or(false));

@@ -15,7 +15,7 @@ use self::faces::Faces;
 use self::lines::Lines;
 use self::vertices::{Pool, Vertices};
 use super::Strictness;
-use super::text::{at_line, label, plain};
+use super::text::{at_line, label, one_line, plain};
 use crate::error::Result;
 use crate::shape::document::{Document, Kept, Layer, ObjKept, On, Role};
 use crate::shape::mesh::Mesh;
@@ -71,7 +71,8 @@ impl Reader {
             b"l" | b"p" => {
                 let absolute = corners::absolute(words, self.counts());
                 let keyword = String::from_utf8_lossy(keyword);
-                self.kept.statements.push(format!("{keyword} {absolute}"));
+                let statement = one_line(&format!("{keyword} {absolute}"));
+                self.kept.statements.push(statement);
                 Ok(())
             }
             _ => {
