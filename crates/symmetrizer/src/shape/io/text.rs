@@ -143,12 +143,12 @@ pub(super) fn label(bytes: &[u8]) -> String {
     one_line(&String::from_utf8_lossy(bytes))
 }
 
-/// A text on one line, without blanks around it. Control characters become replacement characters: a
-/// blank in their place could make a keyword of what is none.
+/// A text on one line, without blanks around it. Control characters and byte-order marks become
+/// replacement characters: a blank in their place could make a keyword of what is none.
 pub(super) fn one_line(text: &str) -> String {
     let tame = |c: char| match c {
         c if c.is_ascii_whitespace() => ' ',
-        c if c.is_control() => char::REPLACEMENT_CHARACTER,
+        c if c.is_control() || c == '\u{feff}' => char::REPLACEMENT_CHARACTER,
         c => c,
     };
     let text: String = text.chars().map(tame).collect();
