@@ -39,8 +39,13 @@ impl MeshFile {
         let lost = losses(document, self.1).into_iter();
         let lost = lost.map(|lost| format!("{name} does not hold {lost}"));
         let folder = file.parent().unwrap_or(Path::new("."));
+        // One line of an OBJ file may name several.
+        let is_there = |name: &String| {
+            let all = || name.split_whitespace().all(|n| folder.join(n).exists());
+            folder.join(name).exists() || all()
+        };
         let needed = companions(document, self.1).into_iter();
-        let missing = needed.filter(|needed| !folder.join(needed).exists());
+        let missing = needed.filter(|needed| !is_there(needed));
         let missing = missing.map(|m| format!("{name} names the file {m}: copy it beside it"));
         lost.chain(missing).collect()
     }

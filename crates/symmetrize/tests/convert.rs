@@ -44,7 +44,7 @@ fn what_is_lost_is_named() {
         "colours (per vertex)",
         "texture coordinates (per corner)",
         "object names (per face)",
-        "1 faces of more than three corners, cut into triangles",
+        "1 face of more than three corners, cut into triangles",
     ] {
         assert!(stl.contains(part), "{part:?} is not in {stl}");
     }
@@ -116,4 +116,31 @@ fn bad_paths_are_refused_before_the_work() {
         assert!(said.contains(part), "{said}");
     }
     assert_eq!(desk.files(), ["box.obj"]);
+}
+
+#[test]
+fn files_that_a_shape_names_are_missed() {
+    let desk = Desk::new();
+    let ply = "ply\nformat ascii 1.0\ncomment TextureFile skin one.png\nelement vertex 1\n\
+               property float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n";
+    desk.write("a.ply", ply);
+    let gltf = r#"{"asset":{"version":"2.0"},"images":[{"uri":"skin%20two.png"}],"scenes":[]}"#;
+    desk.write("a.gltf", gltf);
+    desk.write("a.obj", "mtllib one.mtl two.mtl\nv 0 0 0\n");
+    std::fs::create_dir(desk.path("there")).unwrap();
+    for (from, to, missing) in [
+        ("a.ply", "there/b.ply", "skin one.png"),
+        ("a.gltf", "there/b.glb", "skin two.png"),
+        ("a.obj", "there/b.obj", "one.mtl two.mtl"),
+    ] {
+        let text = said(&desk, &["convert", from, to]);
+        assert!(
+            text.contains(&format!("names the file {missing}: copy it")),
+            "{text}"
+        );
+    }
+    desk.write("there/one.mtl", "");
+    desk.write("there/two.mtl", "");
+    let text = said(&desk, &["convert", "a.obj", "there/b.obj"]);
+    assert!(!text.contains("copy it"), "{text}");
 }

@@ -228,6 +228,32 @@ fn open_files(process: u32, folder: &std::path::Path) -> usize {
 
 #[cfg(target_os = "linux")]
 #[test]
+fn a_killed_run_leaves_the_old_file_and_nothing_else() {
+    use std::process::Command;
+    let desk = Desk::new();
+    desk.write("out.ply", "what was there before");
+    let mut run = Command::new(env!("CARGO_BIN_EXE_symmetrize"));
+    run.args([
+        "run",
+        "model:creature",
+        "-o",
+        "out.ply",
+        "--report",
+        "r.json",
+        "-q",
+    ]);
+    let mut child = run.current_dir(desk.path("")).spawn().unwrap();
+    while open_files(child.id(), &desk.path("")) < 2 {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert_eq!(desk.files(), ["out.ply"]);
+    assert_eq!(desk.bytes("out.ply"), b"what was there before");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
 fn ctrl_c_leaves_nothing_behind() {
     use std::process::{Command, Stdio};
     let desk = Desk::new();

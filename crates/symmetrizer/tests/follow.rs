@@ -179,3 +179,43 @@ fn normals_of_a_deformed_shape_are_those_of_its_surface() {
     // Rotation alone leaves the shear out; without it normals are off by up to 40 degrees.
     assert!(worst < 12.0, "{worst}");
 }
+
+/// Flat shading: each corner has the normal of its face, before and after.
+#[test]
+fn the_normal_of_a_face_stays_that_of_its_face() {
+    let mesh = common::sphere(3);
+    let of_face = |mesh: &Mesh, f: usize| {
+        let [a, b, c] = [0, 1, 2].map(|k| mesh.positions[mesh.polygons.get(f)[k] as usize]);
+        (b - a).cross(&(c - a)).normalize()
+    };
+    let count = mesh.polygons.len();
+    let flat: Vec<Vector> = (0..count).map(|f| of_face(&mesh, f)).collect();
+    let pool = Values::Pool {
+        width: 3,
+        numbers: Numbers::F64(flat.iter().flat_map(|n| [n.x, n.y, n.z]).collect()),
+        rows: (0..count as u32).flat_map(|f| [f; 3]).collect(),
+    };
+    let document = Document {
+        layers: vec![
+            layer(On::Corner, Role::Normal, pool),
+            layer(On::Face, Role::Normal, rows(&flat)),
+        ],
+        ..mesh.into()
+    };
+    let working = Working::new(&document.mesh).unwrap();
+    let bend = |p: Point| Point::new(p.x * (0.6 * p.z).cos(), p.y, p.z + p.x * (0.6 * p.z).sin());
+    let after = document.deformed(&working, &moved(&working, bend));
+    for f in 0..count {
+        let n = of_face(&after.mesh, f);
+        for k in 0..3 {
+            let angle = n.angle(&vector(&after.layers[0].values, 3 * f + k));
+            assert!(angle < 1e-6, "{angle}");
+        }
+        assert!(n.angle(&vector(&after.layers[1].values, f)) < 1e-6);
+    }
+    // One row for each face, as before.
+    assert_eq!(
+        after.layers[0].values.numbers().map(Numbers::len),
+        document.layers[0].values.numbers().map(Numbers::len)
+    );
+}

@@ -172,3 +172,17 @@ mod unix {
         assert!(matches!(new, Err(Error::Io { .. })));
     }
 }
+
+#[cfg(unix)]
+#[test]
+fn a_link_that_leads_nowhere_is_left_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let link = folder.path().join("link.obj");
+    std::os::unix::fs::symlink("none.obj", &link).unwrap();
+    let message = Output::create(&link).unwrap_err().to_string();
+    assert!(
+        message.contains("link.obj") && message.contains("not there"),
+        "{message}"
+    );
+    assert!(link.is_symlink());
+}

@@ -135,26 +135,23 @@ impl Mesh {
     /// The triangles of all polygons, each with the index of its polygon: n - 2 for n corners (see
     /// [`triangulate()`]).
     pub fn triangles(&self) -> impl Iterator<Item = ([u32; 3], u32)> {
-        (0..).zip(self.polygons.iter()).flat_map(|(f, polygon)| {
-            let (first, rest) = match *polygon {
-                [a, b, c] => (Some([a, b, c]), Vec::new()),
-                _ => (None, self.cut(polygon)),
-            };
-            first.into_iter().chain(rest).map(move |t| (t, f))
-        })
+        (0..)
+            .zip(self.polygons.iter())
+            .flat_map(|(f, polygon): (u32, &[u32])| {
+                let (first, rest) = match polygon.len() {
+                    3 => (Some([0, 1, 2]), Vec::new()),
+                    _ => (None, self.cut(f as usize)),
+                };
+                let triangles = first.into_iter().chain(rest);
+                triangles.map(move |t| (t.map(|k| polygon[k as usize]), f))
+            })
     }
 
-    fn cut(&self, polygon: &[u32]) -> Vec<[u32; 3]> {
-        let corners: Vec<Point> = polygon
-            .iter()
-            .map(|&v| self.positions[v as usize])
-            .collect();
-        let mut triangles = triangulate(&corners);
-        triangles
-            .iter_mut()
-            .flatten()
-            .for_each(|k| *k = polygon[*k as usize]);
-        triangles
+    /// The triangles of polygon `f` by its corners, counted from its first.
+    pub fn cut(&self, f: usize) -> Vec<[u32; 3]> {
+        let corners = self.polygons.get(f).iter();
+        let corners: Vec<Point> = corners.map(|&v| self.positions[v as usize]).collect();
+        triangulate(&corners)
     }
 
     /// The bounding-box diagonal D of the finite vertices that faces use, model units; for reporting only,

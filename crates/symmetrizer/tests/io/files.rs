@@ -4,6 +4,7 @@ use std::path::Path;
 
 use symmetrizer::Error;
 use symmetrizer::shape::Mesh;
+use symmetrizer::shape::document::{On, Role};
 use symmetrizer::shape::io::{self, Format};
 
 use crate::common;
@@ -210,5 +211,79 @@ fn damaged_meshes_are_not_written() {
     bad.polygons.push(&[0, 1, 77]);
     for format in Format::ALL {
         assert!(io::encode(&bad.clone().into(), format, &mut Vec::new()).is_err());
+    }
+}
+
+#[test]
+fn what_is_no_shape_file_at_all_is_recognised() {
+    for (bytes, part) in [
+        (&b"\n<!DOCTYPE html><title>404</title>"[..], "web page"),
+        (
+            b"version https://git-lfs.github.com/spec/v1\noid",
+            "git lfs pull",
+        ),
+        (&[0x1f, 0x8b, 8, 0, 0, 0], "unpack it"),
+        (b"PK\x03\x04 zipped", "unpack it"),
+    ] {
+        for format in Format::ALL {
+            if format == Format::ThreeMf && bytes.starts_with(b"PK") {
+                continue;
+            }
+            let message = failure(format, bytes);
+            assert!(message.contains(part), "{format:?}: {message}");
+        }
+    }
+    let message = failure(Format::Obj, b"\x7fELF and so on\nno line of it\n");
+    assert!(message.contains("none of its lines"), "{message}");
+}
+
+#[test]
+fn what_other_programs_may_refuse_is_named() {
+    let mut unplaced = pyramid();
+    unplaced.positions[4].x = f64::NAN;
+    let document = unplaced.into();
+    for format in [Format::Glb, Format::ThreeMf] {
+        let lost = io::losses(&document, format).join("; ");
+        assert!(
+            lost.contains("1 vertex without a finite position"),
+            "{lost}"
+        );
+    }
+}
+
+/// A dart: its notch must not be bridged.
+#[test]
+fn concave_polygons_are_cut_inside() {
+    let dart = mesh(
+        &[
+            [0.0, 0.0, 0.0],
+            [4.0, 0.0, 0.0],
+            [1.0, 1.0, 0.0],
+            [0.0, 4.0, 0.0],
+        ],
+        &[&[1, 2, 3, 0]],
+    );
+    for format in [Format::Stl, Format::Glb, Format::ThreeMf] {
+        let cut = decoded(encoded(&dart, format), format);
+        let ups = cut.triangles().map(|(t, _)| {
+            let [a, b, c] = t.map(|v| cut.positions[v as usize]);
+            (b - a).cross(&(c - a)).z
+        });
+        let ups: Vec<f64> = ups.collect();
+        assert!(ups.iter().all(|up| *up > 0.0), "{format:?}: {ups:?}");
+    }
+}
+
+#[test]
+fn corners_that_agree_become_vertices_where_a_format_has_no_corners() {
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvn 0 0 1\nvt 0 0.5\n\
+                f 1/1/1 2/1/1 3/1/1\nf 2/1/1 4/1/1 3/1/1\n";
+    let read = document(text.into(), Format::Obj);
+    for format in [Format::Off, Format::Xyz, Format::Ply] {
+        let lost = io::losses(&read, format).join("; ");
+        assert!(!lost.contains("normals"), "{format:?}: {lost}");
+        let again = document(encoded_document(&read, format), format);
+        let normals = again.layer(On::Vertex, Role::Normal).expect("normals");
+        assert_eq!(normals.values.get(3, 2), Some(1.0), "{format:?}");
     }
 }

@@ -3,6 +3,7 @@
 //! The stages see the [`Mesh`] only. [`Layer`]s are values per vertex, corner or face that several
 //! formats know; [`Kept`] is what belongs to one format alone and is written to that format again.
 
+mod fold;
 mod follow;
 mod kept;
 mod layer;

@@ -2,6 +2,7 @@
 
 use super::Format;
 use crate::shape::document::{Document, Kept, Layer, MorphPart, On, Role};
+use crate::shape::mesh::is_finite;
 
 /// What `document` keeps for a format of its own that is not `format`.
 pub(super) fn of_kept(document: &Document, format: Format) -> Vec<String> {
@@ -35,8 +36,12 @@ pub(super) fn of_layers(document: &Document, holds: impl Fn(&Layer) -> bool) -> 
 pub(super) fn of_polygons(document: &Document) -> Vec<String> {
     let polygons = document.mesh.polygons.iter();
     let cut = polygons.filter(|p| p.len() > 3).count();
-    let phrase = |n: usize| format!("{n} faces of more than three corners, cut into triangles");
-    (cut > 0).then(|| phrase(cut)).into_iter().collect()
+    let phrase = numbered(
+        cut,
+        "face of more than three corners, cut into triangles",
+        "faces of more than three corners, cut into triangles",
+    );
+    phrase.into_iter().collect()
 }
 
 /// Coordinates that change in single precision. Where the file has been in single precision before,
@@ -67,11 +72,27 @@ pub(super) fn loose_vertices(document: &Document) -> usize {
 
 /// "3 cameras", "1 camera", or nothing.
 pub(super) fn counted(count: usize, of: &str) -> Option<String> {
+    numbered(count, of, &format!("{of}s"))
+}
+
+/// "3 vertices", "1 vertex", or nothing.
+pub(super) fn numbered(count: usize, one: &str, more: &str) -> Option<String> {
     match count {
         0 => None,
-        1 => Some(format!("1 {of}")),
-        n => Some(format!("{n} {of}s")),
+        1 => Some(format!("1 {one}")),
+        n => Some(format!("{n} {more}")),
     }
+}
+
+/// Vertices without a finite position, which some formats forbid.
+pub(super) fn of_unplaced(document: &Document) -> Option<String> {
+    let positions = document.mesh.positions.iter();
+    let unplaced = positions.filter(|p| !is_finite(p)).count();
+    numbered(
+        unplaced,
+        "vertex without a finite position: other programs may refuse the file",
+        "vertices without a finite position: other programs may refuse the file",
+    )
 }
 
 /// What a layer is, such as "texture coordinates (per corner)".

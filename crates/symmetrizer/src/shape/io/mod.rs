@@ -3,6 +3,7 @@
 //! A file becomes a [`Document`]: vertex order, face order and n-gons as they are, and everything
 //! else the file says. What a format cannot hold is named by [`losses`], never dropped in silence.
 
+mod disguise;
 mod gltf;
 mod input;
 mod losses;
@@ -164,6 +165,7 @@ fn decode_beside(
     }
     // A face corner takes at least a byte, so that below this limit every index fits in 32 bits.
     input::check_size(bytes.len() as u64)?;
+    disguise::check(&bytes, format == Format::ThreeMf)?;
     let document = match format {
         Format::Obj => obj::decode(&bytes, strictness),
         Format::Ply => ply::decode(&bytes),
@@ -232,6 +234,8 @@ pub fn losses(document: &Document, format: Format) -> Vec<String> {
 pub fn companions(document: &Document, format: Format) -> Vec<String> {
     match (&document.kept, format) {
         (Kept::Obj(kept), Format::Obj) => kept.libraries.clone(),
+        (Kept::Ply(kept), Format::Ply) => ply::companions(kept),
+        (Kept::Gltf(kept), Format::Gltf | Format::Glb) => gltf::companions(kept),
         _ => Vec::new(),
     }
 }

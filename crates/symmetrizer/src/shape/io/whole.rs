@@ -25,7 +25,11 @@ impl Output {
     /// exist; [`Error::Io`] where the directory, or the file to be replaced, is not writable.
     pub fn create(path: &Path) -> Result<Self> {
         // Through a link, so that what it points to is replaced and not the link.
-        let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let target = match fs::canonicalize(path) {
+            Ok(target) => target,
+            Err(_) if path.is_symlink() => return Err(leads_nowhere().in_file(path)),
+            Err(_) => path.to_owned(),
+        };
         let replaced = replaced(&target).map_err(|e| e.in_file(path))?;
         let temporary = beside(&target).map_err(|e| e.in_file(path))?;
         if let Some(replaced) = replaced {
@@ -68,6 +72,13 @@ impl Output {
         };
         complete().map_err(|e| Error::io(&target, e))
     }
+}
+
+fn leads_nowhere() -> Error {
+    Error::input(
+        "this is a link to a file that is not there",
+        "remove the link, or name the file itself",
+    )
 }
 
 /// The file that the output will replace, if there is one; it must be a writable regular file.

@@ -39,7 +39,7 @@ fn polygons_are_cut_and_points_stay() {
     let document = Document::from(pyramid());
     let lost = io::losses(&document, Format::Glb);
     assert!(
-        lost[0].contains("1 faces of more than three corners"),
+        lost[0].contains("1 face of more than three corners"),
         "{lost:?}"
     );
     let read = self::document(written(&document, Format::Glb), Format::Glb);

@@ -61,7 +61,7 @@ fn every_property_has_its_meaning() {
     assert_eq!(*values(10), names);
     assert_eq!(io::losses(&read, Format::Ply), Vec::<String>::new());
     let lost = io::losses(&read, Format::Off).join("; ");
-    for part in ["'edge' (2 rows)", "'camera' (1 rows)", "4 comment lines"] {
+    for part in ["'edge' (2 rows)", "'camera' (1 row)", "4 comment lines"] {
         assert!(lost.contains(part), "{lost}");
     }
 }

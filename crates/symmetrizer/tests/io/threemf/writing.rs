@@ -168,7 +168,7 @@ fn another_mesh_makes_a_new_package() {
         [
             "the unit, inch",
             "1 metadata element",
-            "1 faces of more than three corners, cut into triangles"
+            "1 face of more than three corners, cut into triangles"
         ]
     );
     let again = read(&written(&document));

@@ -184,7 +184,7 @@ fn relative_path(uri: &str, place: &str) -> Result<PathBuf> {
 }
 
 /// `%20` and the like as the characters they stand for.
-fn unescaped(uri: &str) -> Option<String> {
+pub(super) fn unescaped(uri: &str) -> Option<String> {
     let mut bytes = Vec::with_capacity(uri.len());
     let mut rest = uri.as_bytes();
     while let Some((&first, after)) = rest.split_first() {

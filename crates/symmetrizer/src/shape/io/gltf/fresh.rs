@@ -1,6 +1,6 @@
 //! A file made anew, for a document from another format or with other faces than its file.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use serde_json::{Map, Value, json};
@@ -14,7 +14,7 @@ use super::seams::Seams;
 use super::writer::{Target, Writer, bytes_of, single};
 use crate::error::Result;
 use crate::shape::document::{Document, Kept, Kind, Layer, NO_ROW, On, Role, Values};
-use crate::shape::io::losses::{counted, of_layers, of_polygons, of_precision};
+use crate::shape::io::losses::{numbered, of_layers, of_polygons, of_precision, of_unplaced};
 
 /// What a fresh file does not hold of `document`.
 pub(super) fn losses(document: &Document) -> Vec<String> {
@@ -33,10 +33,26 @@ pub(super) fn losses(document: &Document) -> Vec<String> {
     lost.extend(columns.iter().filter_map(Column::loss));
     lost.extend(of_polygons(document));
     let split = seams(document, &columns).split;
-    let split = counted(split, "shared vertex at texture seams or creases, split");
-    lost.extend(split);
+    lost.extend(numbered(
+        split,
+        "shared vertex at a texture seam or crease, split",
+        "shared vertices at texture seams or creases, split",
+    ));
+    lost.extend(is_mixed(document).then(|| "the order of faces, grouped by material".into()));
+    lost.extend(of_unplaced(document));
     lost.extend(of_precision(document));
     lost
+}
+
+/// Whether faces of one material stand apart, with those of others between.
+fn is_mixed(document: &Document) -> bool {
+    let layer = document.layer(On::Face, Role::Material);
+    let Some(Values::Names { of, .. }) = layer.map(|l| &l.values) else {
+        return false;
+    };
+    let mut begun = BTreeSet::new();
+    let mut runs = of.chunk_by(|a, b| a == b);
+    !runs.all(|run| begun.insert(run[0]))
 }
 
 /// The file for `document`.
@@ -174,8 +190,8 @@ impl Fresh<'_> {
                 groups.len() - 1
             });
             let corners = &self.seams.corners[self.starts[f]..self.starts[f + 1]];
-            for pair in corners[1..].windows(2) {
-                let triangle = [corners[0], pair[0], pair[1]];
+            for triangle in self.document.mesh.cut(f) {
+                let triangle = triangle.map(|k| corners[k as usize]);
                 let first = object.vertices.start as u32;
                 groups[group].1.extend(triangle.map(|v| v - first));
             }

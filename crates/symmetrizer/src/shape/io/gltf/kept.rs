@@ -95,6 +95,16 @@ pub(in crate::shape::io) fn lost_elsewhere(kept: &GltfKept) -> Vec<String> {
     lost.into_iter().flatten().collect()
 }
 
+/// The images that stand in files of their own.
+pub(in crate::shape::io) fn companions(kept: &GltfKept) -> Vec<String> {
+    let images = list(&kept.json, "images").iter();
+    let uris = images.filter_map(|image| image.get("uri")?.as_str());
+    let files = uris.filter(|uri| !uri.starts_with("data:") && !uri.contains("://"));
+    files
+        .map(|uri| super::buffers::unescaped(uri).unwrap_or_else(|| uri.to_owned()))
+        .collect()
+}
+
 fn has_look(material: &Value) -> bool {
     let mut keys = material.as_object().into_iter().flat_map(|m| m.keys());
     keys.any(|key| key != "name")

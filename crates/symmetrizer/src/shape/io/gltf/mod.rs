@@ -40,7 +40,7 @@ use std::path::Path;
 use crate::error::Result;
 use crate::shape::document::Document;
 
-pub(super) use kept::lost_elsewhere;
+pub(super) use kept::{companions, lost_elsewhere};
 
 /// The document in the bytes of a glTF file, text or binary; the buffers it names are looked for in
 /// `folder`.

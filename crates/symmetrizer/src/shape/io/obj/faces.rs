@@ -25,6 +25,11 @@ pub(super) struct Faces {
 }
 
 impl Faces {
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.polygons.is_empty()
+    }
+
     /// The name of the faces to come.
     pub fn name(&mut self, role: Role, name: &str) {
         if let Some(k) = ROLES.iter().position(|r| *r == role) {

@@ -16,7 +16,7 @@ use self::lines::Lines;
 use self::vertices::{Pool, Vertices};
 use super::Strictness;
 use super::text::{at_line, label, one_line, plain};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::shape::document::{Document, Kept, Layer, ObjKept, On, Role};
 use crate::shape::mesh::Mesh;
 
@@ -97,6 +97,12 @@ impl Reader {
 
     fn finish(self, strictness: Strictness) -> Result<Document> {
         let counts = self.counts();
+        if counts == [0; 3] && self.faces.is_empty() && !self.kept.statements.is_empty() {
+            return Err(Error::input(
+                "none of its lines is one of an OBJ file",
+                "is this another kind of file?",
+            ));
+        }
         if let Some((line, what)) = self.faces.fault(counts[0]).filter(|_| strictness.refuses()) {
             return Err(at_line(
                 line,

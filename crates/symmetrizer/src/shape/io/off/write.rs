@@ -8,6 +8,7 @@ use crate::shape::document::{Document, Kind, Layer, On, Role};
 
 /// Writes an OFF file; numbers in the shortest form that reads back to the same bits.
 pub(in super::super) fn encode(document: &Document, w: &mut dyn Write) -> Result<()> {
+    let document = &*document.folded();
     let text = || -> IoResult<()> {
         let mut w = BufWriter::new(w);
         let mesh = &document.mesh;
@@ -41,7 +42,7 @@ pub(in super::super) fn encode(document: &Document, w: &mut dyn Write) -> Result
 
 /// What OFF cannot say of `document`.
 pub(in super::super) fn losses(document: &Document) -> Vec<String> {
-    of_layers(document, holds)
+    of_layers(&document.folded(), holds)
 }
 
 fn holds(layer: &Layer) -> bool {

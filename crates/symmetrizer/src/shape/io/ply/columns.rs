@@ -3,40 +3,41 @@
 use std::borrow::Cow;
 
 use super::fate::Fate;
-use super::layout::{Column, Source, kept};
+use super::layout::{Column, Source};
 use super::{ascii, names};
-use crate::shape::document::{Document, Kind, Layer, PlyForm, PlyProperty, Role, Values};
+use crate::shape::document::{Document, Kind, Layer, PlyProperty, Role, Values};
 
-/// The coordinates: double, or of the type that the file had where that holds all of them.
+/// The coordinates: of the type that the file had where that is a float or holds all of them; for
+/// another document `float` where that loses nothing, else `double`.
 pub(super) fn axes<'a>(document: &Document, properties: &[PlyProperty]) -> Vec<Column<'a>> {
-    let kinds = ["x", "y", "z"].map(|name| {
-        let property = properties.iter().find(|p| p.name == name);
-        property.map_or(Kind::F64, |p| p.kind)
-    });
-    let text = kept(document).is_some_and(|k| k.form == PlyForm::Text);
-    let fits =
-        |k: Kind, c: f64| ascii::holds(k, c) || (text && k == Kind::F32 && has_single_digits(c));
     let positions = &document.mesh.positions;
-    let stay = positions
-        .iter()
-        .all(|p| (0..3).all(|i| fits(kinds[i], p[i])));
-    (0..3)
-        .map(|i| Column {
-            name: ["x", "y", "z"][i].into(),
-            kind: if stay { kinds[i] } else { Kind::F64 },
-            longest: None,
-            count: None,
-            source: Source::Axis(i),
-            place: None,
-        })
-        .collect()
+    let fits = |i: usize, kind: Kind| positions.iter().all(|p| ascii::holds(kind, p[i]));
+    let single = (0..3).all(|i| fits(i, Kind::F32));
+    let in_range = |i: usize| {
+        positions
+            .iter()
+            .all(|p| (p[i] as f32).is_finite() || !p[i].is_finite())
+    };
+    let kind = |i: usize| {
+        let property = properties.iter().find(|p| p.name == AXES[i]);
+        match property.map(|p| p.kind) {
+            Some(kind) if fits(i, kind) || (kind == Kind::F32 && in_range(i)) => kind,
+            None if single => Kind::F32,
+            _ => Kind::F64,
+        }
+    };
+    let column = |i: usize| Column {
+        name: AXES[i].into(),
+        kind: kind(i),
+        longest: None,
+        count: None,
+        source: Source::Axis(i),
+        place: None,
+    };
+    (0..3).map(column).collect()
 }
 
-/// Whether a number has no more digits than programs print of single precision: it stands so in the
-/// text and no step has touched it.
-fn has_single_digits(c: f64) -> bool {
-    format!("{c:.8e}").parse() == Ok(c)
-}
+const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// The polygons, with the types that the file had where they suffice.
 pub(super) fn corners<'a>(document: &Document, properties: &[PlyProperty]) -> Column<'a> {

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::names;
-use crate::shape::document::{Document, Layer, NO_ROW, On, Role, Values};
+use crate::shape::document::{Document, Layer, On, Role, Values};
 
 /// Where a layer goes.
 pub(super) enum Fate<'a> {
@@ -34,30 +34,10 @@ pub(super) fn fate<'a>(document: &'a Document, layer: &'a Layer) -> Fate<'a> {
         (On::Corner, Role::Normal | Role::Color(_), values)
             if document.layer(On::Vertex, layer.role).is_none() =>
         {
-            agreed(document, values).map_or(Fate::Lost, |v| Fate::Vertex(Cow::Owned(v)))
+            document
+                .agreed(values)
+                .map_or(Fate::Lost, |v| Fate::Vertex(Cow::Owned(v)))
         }
         (On::Corner, ..) => Fate::Lost,
     }
-}
-
-/// Values of corners as values of vertices, where all corners of each vertex have the same.
-fn agreed(document: &Document, values: &Values) -> Option<Values> {
-    let (width, numbers) = (values.width()?, values.numbers()?);
-    let mut of = vec![NO_ROW; document.mesh.positions.len()];
-    for (i, &v) in document.mesh.polygons.iter().flatten().enumerate() {
-        let row = values.row(i)?;
-        let known = of.get_mut(v as usize)?;
-        if *known == NO_ROW {
-            *known = row as u32;
-        }
-        let number = |row: usize, k: usize| numbers.get(row * width + k).to_bits();
-        if !(0..width).all(|k| number(row, k) == number(*known as usize, k)) {
-            return None;
-        }
-    }
-    Some(Values::Pool {
-        width,
-        numbers: numbers.clone(),
-        rows: of,
-    })
 }

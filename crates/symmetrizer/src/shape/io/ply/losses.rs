@@ -1,6 +1,6 @@
 //! What PLY does not hold of a document, and what no other format holds of a PLY file.
 
-use super::super::losses::{counted, of_layers};
+use super::super::losses::{counted, numbered, of_layers};
 use super::fate::{Fate, fate};
 use super::{PlyKept, rows};
 use crate::shape::document::{Document, Layer, On, Role, Values};
@@ -27,10 +27,25 @@ pub(in super::super) fn losses(document: &Document) -> Vec<String> {
 pub(in super::super) fn of_kept(kept: &PlyKept) -> Vec<String> {
     let others = kept.elements.iter().filter_map(|e| {
         let count = e.properties.first()?.values.as_ref().map(rows)?;
-        (count > 0).then(|| format!("the element '{}' ({count} rows)", e.name))
+        let rows = numbered(count, "row", "rows")?;
+        Some(format!("the element '{}' ({rows})", e.name))
     });
     let remarks = counted(kept.remarks.len(), "comment line");
     others.chain(remarks).collect()
+}
+
+/// The textures that comments name.
+pub(in super::super) fn companions(kept: &PlyKept) -> Vec<String> {
+    let lines = kept
+        .remarks
+        .iter()
+        .map(|r| String::from_utf8_lossy(&r.line));
+    let name = |line: &str| {
+        let rest = line.trim().strip_prefix("comment")?.trim_start();
+        let name = rest.strip_prefix("TextureFile")?.trim();
+        (!name.is_empty()).then(|| name.to_owned())
+    };
+    lines.filter_map(|line| name(&line)).collect()
 }
 
 /// Elements without values are written with 0.

@@ -27,7 +27,7 @@ use super::text::Part;
 use crate::error::{Error, Result};
 use crate::shape::document::{Document, Kind, Numbers, PlyForm, PlyKept, PlyProperty, Values};
 
-pub(super) use losses::{losses, of_kept};
+pub(super) use losses::{companions, losses, of_kept};
 pub(super) use write::encode;
 
 /// The document in the bytes of a PLY file.

@@ -10,7 +10,7 @@ mod weld;
 
 use std::io::Write;
 
-use super::losses::{of_layers, of_polygons, of_precision};
+use super::losses::{loose_vertices, numbered, of_layers, of_polygons, of_precision};
 use crate::error::{Error, Result};
 use crate::geom::Vector;
 use crate::shape::document::{Document, Kept, Layer, On, Role};
@@ -48,8 +48,12 @@ pub(super) fn losses(document: &Document) -> Vec<String> {
     if !text {
         lost.extend(of_precision(document));
     }
-    let loose = super::losses::loose_vertices(document);
-    lost.extend((loose > 0).then(|| format!("{loose} vertices without faces")));
+    let loose = loose_vertices(document);
+    lost.extend(numbered(
+        loose,
+        "vertex without faces",
+        "vertices without faces",
+    ));
     lost
 }
 

@@ -167,21 +167,17 @@ fn object(document: &Document, objects: &Objects, k: usize, text: &mut String) {
     }
     *text += "</vertices>\n<triangles>\n";
     for &f in faces {
-        triangles(
-            document.mesh.polygons.get(f as usize),
-            vertices,
-            row(f),
-            text,
-        );
+        triangles(document, f as usize, vertices, row(f), text);
     }
     *text += "</triangles>\n</mesh></object>\n";
 }
 
-/// A polygon as a fan, its corners counted within the object's vertices.
-fn triangles(polygon: &[u32], vertices: &[u32], material: u32, text: &mut String) {
+/// The triangles of a polygon, their corners counted within the object's vertices.
+fn triangles(document: &Document, f: usize, vertices: &[u32], material: u32, text: &mut String) {
+    let polygon = document.mesh.polygons.get(f);
     let local = |v: u32| vertices.partition_point(|&w| w < v);
-    for k in 1..polygon.len().saturating_sub(1) {
-        let [a, b, c] = [polygon[0], polygon[k], polygon[k + 1]].map(local);
+    for triangle in document.mesh.cut(f) {
+        let [a, b, c] = triangle.map(|k| local(polygon[k as usize]));
         let _ = write!(text, "<triangle v1=\"{a}\" v2=\"{b}\" v3=\"{c}\"");
         if material != NO_ROW {
             let _ = write!(text, " pid=\"{MATERIALS_ID}\" p1=\"{material}\"");

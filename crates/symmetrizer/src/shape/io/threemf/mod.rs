@@ -28,7 +28,7 @@ mod xml;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 
-use super::losses::{counted, of_layers, of_polygons};
+use super::losses::{counted, numbered, of_layers, of_polygons, of_unplaced};
 use crate::error::{Error, Result};
 use crate::shape::document::{Document, Kept, ThreeMfBlock, ThreeMfKept};
 use package::Package;
@@ -83,6 +83,7 @@ pub(super) fn losses(document: &Document) -> Vec<String> {
         _ => {}
     }
     lost.extend(of_polygons(document));
+    lost.extend(of_unplaced(document));
     let shared = fresh::shared_vertices(document);
     lost.extend((shared > 0).then(|| format!("the seams of objects: {shared} vertices doubled")));
     lost
@@ -102,6 +103,8 @@ fn besides(package: &Package<'_>, build: &Build) -> Vec<String> {
         unit.filter(|u| *u != "millimeter")
             .map(|u| format!("the unit, {u}")),
     );
+    let colors = build.parts.iter().map(|p| p.model.colors).sum();
+    phrases.extend(numbered(colors, "material's colour", "materials' colours"));
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for part in &build.parts {
         for (name, count) in &part.model.besides {

@@ -23,6 +23,8 @@ pub(super) struct Model {
     pub materials: BTreeMap<u32, Vec<String>>,
     /// How often other elements stand among resources and metadata, by name.
     pub besides: BTreeMap<String, usize>,
+    /// How many materials have a colour.
+    pub colors: usize,
 }
 
 /// An object: triangles, or other objects, in principle both.
@@ -176,6 +178,7 @@ impl Model {
             }
             Element::Material => {
                 let name = tag.value("name")?.unwrap_or_default();
+                self.colors += usize::from(tag.value("displaycolor")?.is_some());
                 self.materials.entry(open.group).or_default().push(name);
             }
             Element::Besides => {

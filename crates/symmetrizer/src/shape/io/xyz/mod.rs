@@ -48,6 +48,7 @@ fn holds(layer: &Layer) -> bool {
 /// Writes the points with their normals, colours and further numbers. The names of the columns come
 /// first where a reader could not tell them.
 pub(super) fn encode(document: &Document, w: &mut dyn Write) -> Result<()> {
+    let document = &*document.folded();
     let layers: Vec<&Layer> = document.layers.iter().filter(|l| holds(l)).collect();
     let table = table(document, &layers);
     let told = table.layers();
@@ -127,6 +128,6 @@ fn word(name: &str) -> String {
 /// What is lost in an XYZ file: the faces, and what is not a number per point.
 pub(super) fn losses(document: &Document) -> Vec<String> {
     let faces = counted(document.mesh.polygons.len(), "face");
-    let layers = of_layers(document, holds);
+    let layers = of_layers(&document.folded(), holds);
     faces.into_iter().chain(layers).collect()
 }
