@@ -22,7 +22,7 @@ def grid(path):
     """A binary PLY of 1,000,000 triangles."""
     import numpy as np
 
-    n = 708
+    n = 709
     x, y = np.meshgrid(np.linspace(0, 1, n), np.linspace(0, 1, n))
     vertices = np.stack([x, y, 0.1 * np.sin(9 * x) * np.cos(7 * y)], -1).reshape(-1, 3).astype("<f4")
     i = np.arange(n * n).reshape(n, n)

@@ -160,7 +160,7 @@ impl Mesh {
         let mut low = Point::from([f64::INFINITY; 3]);
         let mut high = Point::from([f64::NEG_INFINITY; 3]);
         let used = self.polygons.iter().flatten();
-        for p in used.map(|&v| &self.positions[v as usize]) {
+        for p in used.filter_map(|&v| self.positions.get(v as usize)) {
             if !is_finite(p) {
                 continue;
             }

@@ -181,3 +181,23 @@ fn a_mesh_is_judged_the_same_however_it_is_placed() {
     let moved = common::placed(&both, Vector::zeros(), 1e-7, Vector::zeros());
     assert_eq!(kinds(&both), kinds(&moved));
 }
+
+#[test]
+fn a_seam_that_is_nearly_closed() {
+    // Two squares side by side, their common edge there twice: once a hair apart.
+    let square = |x: f64| {
+        [
+            [x, 0.0, 0.0],
+            [x + S, 0.0, 0.0],
+            [x + S, S, 0.0],
+            [x, S, 0.0],
+        ]
+    };
+    let faces: [&[u32]; 2] = [&[0, 1, 2, 3], &[4, 5, 6, 7]];
+    let apart = |gap: f64| mesh(&[square(0.0), square(S + gap)].concat(), &faces);
+    let near = Findings::of(&apart(1e-7));
+    let found = finding(&near, Kind::NearSeam);
+    assert_eq!(found.count, 4);
+    assert!(Findings::of(&apart(0.0)).get(Kind::NearSeam).is_none());
+    assert!(Findings::of(&apart(1e-3)).get(Kind::NearSeam).is_none());
+}

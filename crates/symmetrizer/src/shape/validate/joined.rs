@@ -14,7 +14,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// The joined surface.
 pub(super) struct Joined<'a> {
-    faces: &'a Faces<'a>,
+    pub(super) faces: &'a Faces<'a>,
     sides: Vec<Side>,
 }
 
@@ -35,12 +35,13 @@ impl<'a> Joined<'a> {
         let mut fans = self.fans();
         found.push(self.pinched(&mut fans));
         found.push(self.borders(fans));
+        found.push(self.near_seams());
         found.extend(self.parts());
         found
     }
 
     /// The vertices, as the file names them, at the ends of a side.
-    fn edge(&self, side: Side) -> [u32; 2] {
+    pub(super) fn edge(&self, side: Side) -> [u32; 2] {
         [side.corner, side.next_corner()].map(|c| vertex(&self.faces.as_filed, c))
     }
 
@@ -48,6 +49,11 @@ impl<'a> Joined<'a> {
     fn tally(&self, mut these: Vec<Side>) -> Tally {
         these.sort_unstable_by_key(|s| s.corner);
         these.into_iter().map(|s| self.edge(s)).collect()
+    }
+
+    /// The sides of the edges with one triangle.
+    pub(super) fn rim(&self) -> impl Iterator<Item = Side> {
+        edges(&self.sides).filter(|e| e.len() == 1).map(|e| e[0])
     }
 
     fn runs_up(&self, side: Side) -> bool {
@@ -180,10 +186,7 @@ impl<'a> Joined<'a> {
 
     /// The rims: boundary edges that follow each other around a fan.
     fn borders(&self, mut fans: Sets) -> Finding {
-        let mut rim: Vec<Side> = edges(&self.sides)
-            .filter(|e| e.len() == 1)
-            .map(|e| e[0])
-            .collect();
+        let mut rim: Vec<Side> = self.rim().collect();
         rim.sort_unstable_by_key(|s| s.corner);
         for side in &rim {
             fans.join(side.corner, side.next_corner());

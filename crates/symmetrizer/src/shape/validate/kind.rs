@@ -55,6 +55,8 @@ pub enum Kind {
     NonManifoldVertex,
     /// Rims of the surface, each all round.
     Border,
+    /// Vertices of rims that all but meet another one.
+    NearSeam,
     /// There is no rim: every edge has a face on both sides.
     Closed,
     /// Faces that pass through others with which they share no vertex.
@@ -119,9 +121,11 @@ impl Kind {
     /// What is counted, and what the places are.
     pub(super) fn units(self) -> (&'static str, &'static str) {
         match self {
-            Self::NonFinite | Self::SamePlace | Self::NonManifoldVertex | Self::Loose => {
-                ("vertices", "vertices")
-            }
+            Self::NonFinite
+            | Self::SamePlace
+            | Self::NonManifoldVertex
+            | Self::NearSeam
+            | Self::Loose => ("vertices", "vertices"),
             _ if self.is_whole() => ("vertices", "vertices"),
             Self::Misoriented | Self::NonManifoldEdge => ("edges", "edges"),
             Self::Border => ("borders", "edges"),
@@ -161,6 +165,7 @@ impl Kind {
             ],
             Self::NonManifoldVertex => ["pinched vertex", "pinched vertices"],
             Self::Border => ["border", "borders"],
+            Self::NearSeam => ["vertex at an open seam", "vertices at open seams"],
             Self::Crossing => ["face through another", "faces through others"],
             Self::CrossingSkipped => ["triangle not looked at", "triangles, too many to look at"],
             Self::Component => ["connected part", "separate parts"],
@@ -211,6 +216,10 @@ impl Kind {
             Self::NonManifoldVertex => {
                 "Two or more pieces of surface touch there in a single point, as the halves of an \
                  hourglass."
+            }
+            Self::NearSeam => {
+                "It is on a border and within 1e-5 of D of another border vertex, but not in its place: \
+                 the seam is not closed."
             }
             Self::Crossing => "A face passes through another one that is not its neighbour.",
             Self::CrossingSkipped => "Whether faces pass through each other was not looked at.",
@@ -263,6 +272,7 @@ impl Kind {
                 "keeps the faces joined there as they are"
             }
             Self::Border | Self::Closed => "closes no hole and makes none",
+            Self::NearSeam => "leaves the seam open; weld it with a small distance beforehand",
             Self::Crossing | Self::CrossingSkipped => {
                 "leaves crossings as they are; its report counts those it adds"
             }
@@ -280,7 +290,7 @@ impl Kind {
             }
             Self::ExtremeSize => "measures everything relative to the shape and is not affected",
             Self::SinglePrecision => {
-                "works in double precision, and a format that can hold it writes the result so"
+                "works in double precision and writes the digits that the format holds"
             }
         }
     }

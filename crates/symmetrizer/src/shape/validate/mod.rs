@@ -9,6 +9,7 @@ mod finding;
 mod findings;
 mod joined;
 mod kind;
+mod near;
 mod places;
 mod polygons;
 mod sets;
