@@ -8,7 +8,7 @@ use crate::cluster::Projection;
 use crate::job::{Detected, Measured, Symmetrized};
 use crate::picture::{
     Angle, Canvas, DensityPlot, Extent, Panel, PlotMode, ReportPicture, ScalarField, Sheet,
-    categorical, render_sheet,
+    categorical, render_sheet, strongest,
 };
 use crate::transform::{Isometry, Plane};
 
@@ -23,6 +23,9 @@ const PLOT_SIDE: u32 = 900;
 const SHARPNESS: f64 = 0.5;
 /// Width and height of one view of a sheet, pixels.
 pub const VIEW_SIZE: [u32; 2] = [420, 440];
+/// The scale of colours reaches at least this far, % of D: less is the triangulation's, and a shape
+/// that is symmetric looks so.
+const PALE: f64 = 0.02;
 /// What colours stand for.
 const SCALE_LABEL: &str = "asymmetry, % of D";
 
@@ -53,7 +56,7 @@ pub fn before_after(job: &Symmetrized, title: &str) -> Canvas {
         before: panel(0),
         after: panel(1),
         triangles: &surfaces[0].triangles,
-        scale_max: None,
+        scale_max: Some(strongest(colors.iter().map(Vec::as_slice)).max(PALE)),
         scale_label: SCALE_LABEL,
     };
     page.canvas()
@@ -111,7 +114,7 @@ pub fn measured_views(measured: &Measured, shown: &Shown<'_>) -> Canvas {
         triangles: &surface.triangles,
         scalar: values.as_deref().map(|values| ScalarField {
             values,
-            max: None,
+            max: Some(strongest([values]).max(PALE)),
             label: SCALE_LABEL,
         }),
         planes: if shown.plane { &planes } else { &[] },

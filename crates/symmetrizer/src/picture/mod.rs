@@ -27,5 +27,5 @@ pub use color::{ColorMap, ColorScale, categorical};
 pub use density::{DensityPlot, Extent, PlotMode};
 pub use render::{Background, Scene, render};
 pub use report::{Panel, ReportPicture};
-pub use sheet::{ScalarField, Sheet, render_sheet};
+pub use sheet::{ScalarField, Sheet, render_sheet, strongest};
 pub use stance::{Angle, Stance, views_about};

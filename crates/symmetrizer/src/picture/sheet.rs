@@ -116,11 +116,13 @@ pub(super) fn heat_scale<'a>(
     ColorScale {
         map: ColorMap::Heat,
         low: 0.0,
-        high: given.unwrap_or_else(|| high_value(values)),
+        high: given.unwrap_or_else(|| strongest(values)),
     }
 }
 
-fn high_value<'a>(values: impl IntoIterator<Item = &'a [f64]>) -> f64 {
+/// The 98th percentile of the finite values, or 1 where that is not positive: outliers must not pale
+/// the rest.
+pub fn strongest<'a>(values: impl IntoIterator<Item = &'a [f64]>) -> f64 {
     let mut all: Vec<f64> = values.into_iter().flatten().copied().collect();
     all.retain(|v| v.is_finite());
     all.sort_by(f64::total_cmp);
