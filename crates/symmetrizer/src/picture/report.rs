@@ -188,7 +188,8 @@ impl Layout {
         Self {
             size,
             top,
-            plot: report.has_density().then_some(width),
+            // No higher than its row, or the names of its axes run into the next.
+            plot: report.has_density().then_some(width.min(size[1])),
             height: top + 2 * size[1] + GAP + LEGEND + MARGIN,
             cameras: matching_cameras(&views, &points, size),
         }
