@@ -177,7 +177,7 @@ fn the_tables_hold_every_file() {
     }
 }
 
-/// Runs on a file, on one thread and with few samples: this is about files.
+/// Runs on a file with the defaults, on one thread, because two files are worked on at a time.
 fn run(path: &str, comes: Comes) -> Result<(), String> {
     let desk = Desk::new();
     let extension = Path::new(path).extension().unwrap().to_str().unwrap();
@@ -212,7 +212,6 @@ fn run(path: &str, comes: Comes) -> Result<(), String> {
         return Err(format!("exit {:?}, {said}", done.status.code()));
     }
     match (comes, extension) {
-        // A material file of the same name stands beside neither.
         (Out, _) => same_structure(path, &desk.path(&output)),
         _ => Ok(()),
     }

@@ -88,6 +88,9 @@ fn binary_stl_keeps_header_and_free_bytes() {
         read.layer(On::Face, Role::Other).unwrap().values.get(0, 0),
         Some(263.0)
     );
+    let lost = io::losses(&read, Format::Ply);
+    assert_eq!(lost, ["the header of the STL file"]);
+    assert!(io::losses(&read, Format::Stl).is_empty());
     let mut again = Vec::new();
     io::encode(&read, Format::Stl, &mut again).unwrap();
     // Normals are computed again, from rounded corners.

@@ -1,4 +1,4 @@
-//! What a format cannot hold, in phrases that complete "lost: ...".
+//! What a format cannot hold, in phrases that complete "the file does not hold ...".
 
 use super::Format;
 use crate::shape::document::{Document, Kept, Layer, MorphPart, On, Role};
@@ -9,7 +9,14 @@ pub(super) fn of_kept(document: &Document, format: Format) -> Vec<String> {
     match (&document.kept, format) {
         (Kept::Nothing, _) => Vec::new(),
         (Kept::Obj(_), Format::Obj) | (Kept::Ply(_), Format::Ply) => Vec::new(),
-        (Kept::Stl(_), _) => Vec::new(),
+        (Kept::Stl(_), Format::Stl) => Vec::new(),
+        (Kept::Stl(kept), _) => {
+            let is_blank = |b: &u8| *b == 0 || b.is_ascii_whitespace();
+            let says = !kept.header.iter().all(is_blank);
+            says.then(|| "the header of the STL file".into())
+                .into_iter()
+                .collect()
+        }
         (Kept::Obj(kept), _) => {
             let libraries = kept
                 .libraries
