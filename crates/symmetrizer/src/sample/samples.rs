@@ -4,8 +4,9 @@ use rayon::prelude::*;
 
 use crate::context::Context;
 use crate::error::{Error, Result};
-use crate::geom::{Point, PointIndex, Vector};
+use crate::geom::{Point, PointIndex, Vector, any_orthogonal};
 use crate::sample::blue_noise::blue_noise;
+use crate::sample::relief::{Frame, Harmonics, Relief};
 use crate::sample::signature::{Signature, base_radius, describe};
 use crate::shape::curvature::Cloud;
 use crate::shape::surface::{Surface, SurfacePoint};
@@ -37,6 +38,10 @@ pub struct Sample {
     pub signature: Signature,
     /// Direction of the larger curvature, where it is defined.
     pub e1: Option<Vector>,
+    /// The frame in which `relief` is given: the normal of the middle curvature fit and any tangent.
+    pub frame: Frame,
+    /// Heights around the sample at three radii.
+    pub relief: Relief,
 }
 
 /// Blue-noise samples with their neighbours.
@@ -66,16 +71,24 @@ pub fn sample(surface: &Surface, params: &SampleParams, ctx: &mut Context<'_>) -
     ctx.progress(0.2)?;
     let r0 = base_radius(surface);
     let cloud = Cloud::new(surface, r0 / 2.0);
+    let harmonics = Harmonics::new();
     let list: Vec<Sample> = points
         .par_iter()
         .map(|at| {
-            let (signature, e1, _) = describe(surface, &cloud, at, r0);
+            let (signature, e1, n) = describe(surface, &cloud, at, r0);
+            let frame = Frame {
+                n,
+                e1: any_orthogonal(&n),
+            };
+            let position = surface.point(at);
             Sample {
                 at: *at,
-                position: surface.point(at),
+                position,
                 normal: surface.normal(at),
                 signature,
                 e1,
+                frame,
+                relief: harmonics.relief(&cloud, &position, &frame, r0),
             }
         })
         .collect();

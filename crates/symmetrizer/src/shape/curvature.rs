@@ -27,6 +27,10 @@ pub struct Curvature {
     pub coverage: f64,
 }
 
+/// More points than this per cell: a dense surface is thinned, so that fits cost the same however
+/// finely it is triangulated.
+const CROWDED: f64 = 16.0;
+
 /// The surface as a cloud of area-weighted points for fits: its vertices, and points inside faces
 /// that are large against the radii, so that an uneven triangulation weighs evenly.
 pub struct Cloud {
@@ -60,12 +64,73 @@ impl Cloud {
                 areas.push(part);
             }
         }
-        let index = PointIndex::new(&points.iter().map(|p| [p.x, p.y, p.z]).collect::<Vec<_>>());
-        Self {
+        let crowded = points.len() as f64 * cell * cell > CROWDED * surface.area();
+        let all = Self {
+            index: PointIndex::new(&[]),
             points,
             normals,
             areas,
-            index,
+        };
+        if crowded {
+            all.thinned(0.5 * cell).indexed()
+        } else {
+            all.indexed()
+        }
+    }
+
+    fn indexed(mut self) -> Self {
+        let places: Vec<[f64; 3]> = self.points.iter().map(|p| p.coords.into()).collect();
+        self.index = PointIndex::new(&places);
+        self
+    }
+
+    /// The points of each cubic cell that face one way made one, their area-weighted mean.
+    fn thinned(&self, cell: f64) -> Self {
+        let mut order: Vec<([i64; 4], u32)> = (0..self.points.len() as u32)
+            .filter(|&i| self.areas[i as usize] > 0.0)
+            .map(|i| {
+                let (x, n) = (self.points[i as usize], self.normals[i as usize]);
+                let [a, b, c] = x.coords.map(|c| (c / cell).floor() as i64).into();
+                // The main direction of the normal, so that the sides of a sheet stay apart.
+                let main = n.iamax();
+                let way = 2 * main as i64 + i64::from(n[main] < 0.0);
+                ([a, b, c, way], i)
+            })
+            .collect();
+        order.sort_unstable();
+        let mut thin = Self {
+            points: Vec::new(),
+            normals: Vec::new(),
+            areas: Vec::new(),
+            index: PointIndex::new(&[]),
+        };
+        for group in order.chunk_by(|a, b| a.0 == b.0) {
+            let members = group.iter().map(|&(_, i)| i as usize);
+            let area: f64 = members.clone().map(|i| self.areas[i]).sum();
+            let mean = |of: &dyn Fn(usize) -> Vector| {
+                members.clone().map(|i| of(i) * (self.areas[i] / area)).sum::<Vector>()
+            };
+            thin.points.push(Point::from(mean(&|i| self.points[i].coords)));
+            thin.normals.push(mean(&|i| self.normals[i]).normalize());
+            thin.areas.push(area);
+        }
+        thin
+    }
+
+    /// Visits the points in the ball of `radius` about `center` that face the way of `normal`: their
+    /// offset from the centre and the area they stand for.
+    pub fn each_facing(
+        &self,
+        center: &Point,
+        normal: &Vector,
+        radius: f64,
+        mut visit: impl FnMut(Vector, f64),
+    ) {
+        for i in self.index.within(&center.coords.into(), radius) {
+            let i = i as usize;
+            if self.areas[i] > 0.0 && self.normals[i].dot(normal) > 0.0 {
+                visit(self.points[i] - center, self.areas[i]);
+            }
         }
     }
 
@@ -78,22 +143,17 @@ impl Cloud {
         let mut b = SVector::<f64, 6>::zeros();
         let mut area = 0.0;
         let mut used = 0;
-        let query = [center.x, center.y, center.z];
-        for i in self.index.within(&query, radius) {
-            let i = i as usize;
-            if self.areas[i] <= 0.0 || self.normals[i].dot(normal) <= 0.0 {
-                continue;
-            }
-            let v = (self.points[i] - center) / radius;
+        self.each_facing(center, normal, radius, |offset, share| {
+            let v = offset / radius;
             let (x, y, h) = (v.dot(&t1), v.dot(&t2), v.dot(normal));
             // A weight that fades to the rim makes the fit a smooth function of its place.
-            let w = self.areas[i] * (1.0 - v.norm_squared()).max(0.0);
+            let w = share * (1.0 - v.norm_squared()).max(0.0);
             let row = SVector::<f64, 6>::from([x * x, x * y, y * y, x, y, 1.0]);
             a += w * row * row.transpose();
             b += w * h * row;
-            area += self.areas[i];
+            area += share;
             used += 1;
-        }
+        });
         if used < 6 {
             return None;
         }

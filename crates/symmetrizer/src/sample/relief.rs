@@ -1,0 +1,418 @@
+//! Relief: the shape of the surface around a sample as harmonics of its height over the tangent
+//! plane, comparable under any turn about the normal and under mirroring.
+//!
+//! Over the disc of radius r the height is h = r sum Re(c_mj e^(-i m theta)) R_mj(rho): least squares
+//! with the weight 1 - rho^2 in the polynomials up to degree 4. The R_mj are orthonormal under that
+//! weight, so |c - c'| is the rms difference of two heights in units of r. Turning the frame by
+//! alpha multiplies c_mj by e^(-i m alpha); mirroring conjugates it. Offset and tilt are left out: they are
+//! the sample's place and normal. Ours; the harmonics are those of Zernike (1934) under another
+//! weight.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{Complex, SMatrix, SVector};
+
+use crate::geom::{Point, Vector};
+use crate::sample::signature::SCALES;
+use crate::shape::curvature::Cloud;
+
+/// A local frame: the normal and a direction in the tangent plane from which turns are counted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// Unit normal n.
+    pub n: Vector,
+    /// Unit tangent e1; e2 = n x e1.
+    pub e1: Vector,
+}
+
+impl Frame {
+    /// The second tangent, n x e1.
+    pub fn e2(&self) -> Vector {
+        self.n.cross(&self.e1)
+    }
+
+    /// The frame turned about its normal by `alpha` radians.
+    pub fn turned(&self, alpha: f64) -> Self {
+        Self {
+            n: self.n,
+            e1: self.e1 * alpha.cos() + self.e2() * alpha.sin(),
+        }
+    }
+}
+
+/// Kept harmonics: (m, index among the radial polynomials of m).
+const TERMS: [(usize, usize); 7] = [(0, 1), (0, 2), (1, 1), (2, 0), (2, 1), (3, 0), (4, 0)];
+/// Largest m.
+const ORDERS: usize = 4;
+/// Coefficients of the whole fit, real.
+const UNKNOWNS: usize = 15;
+/// Points that a fit needs, somewhat more than unknowns.
+const MIN_POINTS: usize = 22;
+
+/// The height around a sample at three radii, each as harmonics; a radius whose disc reaches over a
+/// boundary or holds too few points is `None`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Relief(pub [Option<[Complex<f64>; TERMS.len()]>; SCALES]);
+
+/// How two reliefs lie best on each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Alignment {
+    /// The turn of the second one's frame, radians: e1 of the first goes to its e1 turned by this.
+    pub turn: f64,
+    /// rms difference of the heights, in units of the radius.
+    pub gap: f64,
+}
+
+/// The radial polynomials, orthonormal under the weight, by powers of rho.
+pub struct Harmonics([Vec<Vec<(usize, f64)>>; ORDERS + 1]);
+
+impl Default for Harmonics {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Harmonics {
+    /// Gram-Schmidt over rho^m, rho^(m+2), .. up to degree 4.
+    pub fn new() -> Self {
+        Self(std::array::from_fn(|m| {
+            let mut basis: Vec<Vec<(usize, f64)>> = Vec::new();
+            for power in (m..=ORDERS).step_by(2) {
+                let mut new = vec![(power, 1.0)];
+                for old in &basis {
+                    let along = inner(m, &new, old);
+                    new.extend(old.iter().map(|&(k, a)| (k, -along * a)));
+                }
+                let norm = inner(m, &new, &new).sqrt();
+                new.iter_mut().for_each(|(_, a)| *a /= norm);
+                basis.push(new);
+            }
+            basis
+        }))
+    }
+
+    fn radial(&self, m: usize, j: usize, powers: &[f64; ORDERS + 1]) -> f64 {
+        self.0[m][j].iter().map(|&(k, a)| a * powers[k]).sum()
+    }
+
+    /// Values of all 15 functions at a point of the unit disc.
+    fn row(&self, x: f64, y: f64) -> SVector<f64, UNKNOWNS> {
+        let rho = x.hypot(y);
+        let turn = if rho > 0.0 {
+            Complex::new(x / rho, y / rho)
+        } else {
+            Complex::new(1.0, 0.0)
+        };
+        let mut powers = [1.0; ORDERS + 1];
+        for k in 1..=ORDERS {
+            powers[k] = powers[k - 1] * rho;
+        }
+        let mut row = SVector::zeros();
+        let mut at = 0;
+        let mut phase = Complex::new(1.0, 0.0);
+        for m in 0..=ORDERS {
+            for j in 0..self.0[m].len() {
+                let radial = self.radial(m, j, &powers);
+                row[at] = radial * phase.re;
+                at += 1;
+                if m > 0 {
+                    row[at] = radial * phase.im;
+                    at += 1;
+                }
+            }
+            phase *= turn;
+        }
+        row
+    }
+
+    /// The relief at `x` in `frame` at the radii r0, 2 r0, 4 r0.
+    pub fn relief(&self, cloud: &Cloud, x: &Point, frame: &Frame, r0: f64) -> Relief {
+        Relief(std::array::from_fn(|s| {
+            self.fit(cloud, x, frame, r0 * f64::from(1 << s))
+        }))
+    }
+
+    fn fit(
+        &self,
+        cloud: &Cloud,
+        x: &Point,
+        frame: &Frame,
+        radius: f64,
+    ) -> Option<[Complex<f64>; TERMS.len()]> {
+        let e2 = frame.e2();
+        let mut a = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::zeros();
+        let mut b = SVector::<f64, UNKNOWNS>::zeros();
+        let (mut area, mut used) = (0.0, 0);
+        cloud.each_facing(x, &frame.n, radius, |offset, weight| {
+            let v = offset / radius;
+            let row = self.row(v.dot(&frame.e1), v.dot(&e2));
+            let w = weight * (1.0 - v.norm_squared()).max(0.0);
+            a.syger(w, &row, &row, 1.0);
+            b.axpy(w * v.dot(&frame.n), &row, 1.0);
+            area += weight;
+            used += 1;
+        });
+        let disc = std::f64::consts::PI * radius * radius;
+        if used < MIN_POINTS || area < MIN_COVERAGE * disc {
+            return None;
+        }
+        for k in 0..UNKNOWNS {
+            a[(k, k)] += RIDGE * area;
+        }
+        let c = a.cholesky()?.solve(&b);
+        c.iter()
+            .all(|c| c.is_finite())
+            .then(|| TERMS.map(|(m, j)| coefficient(&c, m, j)))
+    }
+}
+
+/// Holds coefficients that few points leave open near 0; a trace against the weight's own 1/4.
+const RIDGE: f64 = 1e-4;
+/// Below this share of a full disc the ball hangs over a boundary.
+const MIN_COVERAGE: f64 = 0.6;
+
+/// The weighted mean over the disc of the product of two radial polynomials with cos^2 m theta.
+fn inner(m: usize, a: &[(usize, f64)], b: &[(usize, f64)]) -> f64 {
+    let mean = |k: usize| 4.0 * (1.0 / (k as f64 + 2.0) - 1.0 / (k as f64 + 4.0));
+    let angular = if m == 0 { 1.0 } else { 0.5 };
+    a.iter()
+        .flat_map(|&(k, x)| b.iter().map(move |&(l, y)| x * y * mean(k + l)))
+        .sum::<f64>()
+        * angular
+}
+
+/// The complex coefficient of a harmonic in the solution.
+fn coefficient(c: &SVector<f64, UNKNOWNS>, m: usize, j: usize) -> Complex<f64> {
+    // m = 0 has three functions, m = 1 and 2 two pairs each, m = 3 and 4 one pair.
+    let start = [0, 3, 7, 11, 13][m];
+    if m == 0 {
+        Complex::new(c[start + j], 0.0)
+    } else {
+        Complex::new(c[start + 2 * j], c[start + 2 * j + 1])
+    }
+}
+
+impl Relief {
+    /// The root mean square height over the radii that are there: near 0 on flat ground.
+    pub fn strength(&self) -> f64 {
+        let scales = self.0.iter().flatten();
+        let count = scales.clone().count().max(1) as f64;
+        let sum: f64 = scales.flatten().map(|c| c.norm_sqr()).sum();
+        (sum / count).sqrt()
+    }
+
+    /// How well the relief says which way it is turned: the root mean square of m c.
+    pub fn directedness(&self) -> f64 {
+        let scales = self.0.iter().flatten();
+        let count = scales.clone().count().max(1) as f64;
+        let sum: f64 = scales
+            .flat_map(|c| c.iter().zip(TERMS))
+            .map(|(c, (m, _))| (m * m) as f64 * c.norm_sqr())
+            .sum();
+        (sum / count).sqrt()
+    }
+
+    /// Never more than the gap of the best alignment, mirrored or not: harmonics compared by size
+    /// alone. `None` with fewer than two radii in common.
+    pub fn least_gap(&self, other: &Self) -> Option<f64> {
+        let mut sum = 0.0;
+        let mut common = 0;
+        for (a, b) in self.0.iter().zip(&other.0) {
+            if let (Some(a), Some(b)) = (a, b) {
+                common += 1;
+                for ((a, b), (m, _)) in a.iter().zip(b).zip(TERMS) {
+                    sum += if m == 0 {
+                        (a.re - b.re).powi(2)
+                    } else {
+                        a.norm_sqr() + b.norm_sqr() - 2.0 * (a.norm_sqr() * b.norm_sqr()).sqrt()
+                    };
+                }
+            }
+        }
+        (common >= 2).then(|| (sum / f64::from(common)).max(0.0).sqrt())
+    }
+
+    /// The turns at which `self`, mirrored if asked, lies best on `other`: all local optima with a gap
+    /// within `tolerance`, the best first.
+    pub fn alignments(&self, other: &Self, mirrored: bool, tolerance: f64) -> Vec<Alignment> {
+        let Some(correlation) = Correlation::new(self, other, mirrored) else {
+            return Vec::new();
+        };
+        let mut found = correlation.optima(tolerance);
+        found.sort_by(|a, b| a.gap.total_cmp(&b.gap));
+        found
+    }
+}
+
+/// The agreement of two reliefs as a function of the turn: Re sum g_m e^(-i m alpha).
+struct Correlation {
+    g: [Complex<f64>; ORDERS + 1],
+    energy: f64,
+    common: f64,
+}
+
+impl Correlation {
+    fn new(p: &Relief, q: &Relief, mirrored: bool) -> Option<Self> {
+        let mut g = [Complex::new(0.0, 0.0); ORDERS + 1];
+        let mut energy = 0.0;
+        let mut common = 0;
+        for (a, b) in p.0.iter().zip(&q.0) {
+            if let (Some(a), Some(b)) = (a, b) {
+                common += 1;
+                for ((a, b), (m, _)) in a.iter().zip(b).zip(TERMS) {
+                    // The conjugate of p's coefficient, and of the mirrored one's.
+                    let a_conj = if mirrored { *a } else { a.conj() };
+                    g[m] += b * a_conj;
+                    energy += a.norm_sqr() + b.norm_sqr();
+                }
+            }
+        }
+        (common >= 2).then_some(Self {
+            g,
+            energy,
+            common: f64::from(common),
+        })
+    }
+
+    fn gap(&self, alpha: f64) -> f64 {
+        let turn = Complex::from_polar(1.0, -alpha);
+        // Horner in e^(-i alpha).
+        let sum = self
+            .g
+            .iter()
+            .rev()
+            .fold(Complex::new(0.0, 0.0), |s, g| s * turn + g);
+        ((self.energy - 2.0 * sum.re).max(0.0) / self.common).sqrt()
+    }
+
+    fn optima(&self, tolerance: f64) -> Vec<Alignment> {
+        const STEPS: usize = 24;
+        let step = TAU / STEPS as f64;
+        let gaps: [f64; STEPS] = std::array::from_fn(|k| self.gap(step * k as f64));
+        (0..STEPS)
+            .filter_map(|k| {
+                let (before, here, after) =
+                    (gaps[(k + STEPS - 1) % STEPS], gaps[k], gaps[(k + 1) % STEPS]);
+                if here > before || here >= after || here > 1.5 * tolerance {
+                    return None;
+                }
+                let turn = self.polish(step * k as f64);
+                let gap = self.gap(turn);
+                (gap <= tolerance).then_some(Alignment { turn, gap })
+            })
+            .collect()
+    }
+
+    /// Newton on the derivative of the agreement, from a grid point beside its maximum.
+    fn polish(&self, mut alpha: f64) -> f64 {
+        for _ in 0..4 {
+            let (mut first, mut second) = (0.0, 0.0);
+            for (m, g) in self.g.iter().enumerate() {
+                let m = m as f64;
+                let z = g * Complex::from_polar(1.0, -m * alpha);
+                first += m * z.im;
+                second -= m * m * z.re;
+            }
+            if second >= 0.0 {
+                break;
+            }
+            alpha -= (first / second).clamp(-0.1, 0.1);
+        }
+        alpha
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::exp_rotation;
+    use crate::shape::Surface;
+    use crate::transform::{Isometry, Plane};
+
+    /// A lively height field over a square, finely and unevenly triangulated.
+    fn ground() -> Surface {
+        let n = 90_u32;
+        let at = |i: u32, j: u32| i * n + j;
+        let positions = (0..n * n)
+            .map(|k| {
+                let x = f64::from(k / n) / f64::from(n) - 0.5 + 0.002 * f64::from(k % 7) / 7.0;
+                let y = f64::from(k % n) / f64::from(n) - 0.5;
+                let h = 0.05 * (9.0 * x + 4.0 * y).sin() + 0.3 * x * x * y - 0.2 * y * y + 0.4 * x * x * x;
+                Point::new(x, y, h)
+            })
+            .collect();
+        let mut triangles = Vec::new();
+        for i in 0..n - 1 {
+            for j in 0..n - 1 {
+                triangles.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
+                triangles.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
+            }
+        }
+        Surface::new(positions, triangles.into())
+    }
+
+    fn relief_of(surface: &Surface, frame: &Frame, x: &Point) -> Relief {
+        let cloud = Cloud::new(surface, 0.02);
+        Harmonics::new().relief(&cloud, x, frame, 0.06)
+    }
+
+    /// The turn of the frame is found again, for a moved and for a mirrored copy, and only there.
+    #[test]
+    fn turns_and_mirrors_are_told_apart() {
+        let surface = ground();
+        let vertex = 45 * 90 + 45;
+        let x = surface.positions[vertex];
+        let frame = Frame {
+            n: surface.vertex_normals[vertex],
+            e1: crate::geom::any_orthogonal(&surface.vertex_normals[vertex]),
+        };
+        let relief = relief_of(&surface, &frame, &x);
+        let mirror = Isometry::mirror(&Plane {
+            normal: Vector::new(0.3, -0.5, 0.8).normalize(),
+            offset: 0.4,
+        });
+        let motion = Isometry {
+            linear: exp_rotation(&Vector::new(0.4, -1.1, 0.7)),
+            translation: Vector::new(1.0, 2.0, 3.0),
+        };
+        for (t, mirrored) in [(motion, false), (mirror, true)] {
+            let moved = surface.with_positions(surface.positions.iter().map(|p| t.apply(p)).collect());
+            // A mirrored copy is seen from outside again when its triangles are turned.
+            let triangles: Vec<[u32; 3]> = moved.triangles.iter().map(|&[a, b, c]| [b, a, c]).collect();
+            let moved = if mirrored {
+                Surface::new(moved.positions, triangles.into())
+            } else {
+                moved
+            };
+            let there = Frame {
+                n: t.rotate(&frame.n),
+                e1: crate::geom::any_orthogonal(&t.rotate(&frame.n)),
+            }
+            .turned(0.7);
+            let other = relief_of(&moved, &there, &t.apply(&x));
+            let best = relief.alignments(&other, mirrored, 0.01);
+            assert_eq!(best.len(), 1, "{best:?}");
+            assert!(best[0].gap < 1e-6);
+            let e1 = there.turned(best[0].turn).e1;
+            assert!((e1 - t.rotate(&frame.e1)).norm() < 1e-5, "mirrored {mirrored}");
+            assert!(relief.least_gap(&other).unwrap() <= best[0].gap + 1e-6);
+            // The other hand does not fit.
+            assert!(relief.alignments(&other, !mirrored, 0.003).is_empty());
+        }
+    }
+
+    /// The gap is the rms height difference over the disc: a bowl against flat ground.
+    #[test]
+    fn the_gap_is_a_height() {
+        let flat = ground().positions.iter().map(|p| Point::new(p.x, p.y, 0.0)).collect();
+        let bowl = ground().positions.iter().map(|p| Point::new(p.x, p.y, 0.5 * (p.x * p.x + p.y * p.y))).collect();
+        let [flat, bowl] = [flat, bowl].map(|p| ground().with_positions(p));
+        let frame = Frame { n: Vector::z(), e1: Vector::x() };
+        let [flat, bowl] = [flat, bowl].map(|s| relief_of(&s, &frame, &Point::origin()));
+        let gap = flat.alignments(&bowl, false, 1.0)[0].gap;
+        // h = r rho^2 / 2 at r, 2r, 4r; rho^2 varies by sqrt(1/18) under the weight.
+        let radii = [0.06, 0.12, 0.24];
+        let mean: f64 = radii.iter().map(|r| (r / 2.0_f64).powi(2) / 18.0).sum::<f64>() / 3.0;
+        assert!((gap / mean.sqrt() - 1.0).abs() < 0.05, "{gap} {}", mean.sqrt());
+    }
+}
