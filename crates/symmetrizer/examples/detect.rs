@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut ctx = Context::new(7);
     let found = detect(&working.surface, &DetectParams::default(), &mut ctx)?;
     for s in &found.symmetries {
-        let plane = PlaneReport::new(&s.plane, &working.normalization);
+        let plane = PlaneReport::new(&s.plane(), &working.normalization);
         let [x, y, z] = plane.normal;
         println!(
             "mirror {}: normal ({x:.4}, {y:.4}, {z:.4}), offset {:.6}, height {:.2}, \

@@ -5,7 +5,7 @@ pub mod pictures;
 
 use crate::apply::measure::{Asymmetry, AsymmetryReport, asymmetry, distortion};
 use crate::context::Context;
-use crate::detect::{Detection, detect};
+use crate::detect::{DetectParams, Detection, detect};
 use crate::error::Result;
 use crate::optimize::schedule::Settings;
 use crate::optimize::{Optimized, Outcome, optimize};
@@ -15,7 +15,7 @@ use crate::report::faces::FaceSamples;
 use crate::report::{Head, InputReport, Report, ResultReport, symmetry};
 use crate::shape::working::{Mended, Working};
 use crate::shape::{Document, Mesh};
-use crate::transform::Plane;
+use crate::transform::{Class, Plane};
 
 pub use measured::{Measured, measure_in};
 
@@ -54,11 +54,23 @@ pub struct Symmetrized {
 /// [`crate::Error::Cancelled`].
 pub fn detect_in(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result<Detected> {
     params.check()?;
+    found_in(mesh, &params.detect(), ctx)
+}
+
+fn found_in(mesh: &Mesh, params: &DetectParams, ctx: &mut Context<'_>) -> Result<Detected> {
     let working = Working::new(mesh)?;
     warn_of(&working.mended, ctx);
     ctx.stage("detect", |ctx| {
         Detected::find(working, mesh.diagonal(), params, ctx)
     })
+}
+
+/// What is made exact: mirrors.
+fn to_enhance(params: &Params) -> DetectParams {
+    DetectParams {
+        classes: vec![Class::Mirror],
+        ..params.detect()
+    }
 }
 
 /// Makes `mesh` symmetric (section 4.2): finds its symmetries, contracts and merges their clusters,
@@ -70,10 +82,12 @@ pub fn detect_in(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result<
 /// # Errors
 /// Those of [`detect_in`]; [`crate::Error::Numerical`].
 pub fn symmetrize(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result<Symmetrized> {
-    let before = detect_in(mesh, params, ctx)?;
+    params.check()?;
+    let detect = to_enhance(params);
+    let before = found_in(mesh, &detect, ctx)?;
     let measured = ctx.stage("measure", |ctx| before.asymmetry(&[], ctx))?;
     let settings = Settings {
-        detect: &params.detect(),
+        detect: &detect,
         deform: &params.deform,
         optimize: &params.optimize,
     };
@@ -103,7 +117,7 @@ pub fn symmetrize(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result
         report,
     };
     if done.outcome != Outcome::NoSymmetry {
-        job.conclude(done, params, ctx)?;
+        job.conclude(done, &detect, ctx)?;
     }
     job.report.warnings = ctx.warnings().to_vec();
     Ok(job)
@@ -143,12 +157,12 @@ impl Detected {
     fn find(
         working: Working,
         diagonal: f64,
-        params: &Params,
+        params: &DetectParams,
         ctx: &mut Context<'_>,
     ) -> Result<Self> {
         Ok(Self {
             diagonal: diagonal / working.normalization.scale,
-            detection: detect(&working.surface, &params.detect(), ctx)?,
+            detection: detect(&working.surface, params, ctx)?,
             working,
         })
     }
@@ -165,7 +179,7 @@ impl Detected {
     /// As [`asymmetry()`].
     pub fn asymmetry(&self, known: &[Plane], ctx: &Context<'_>) -> Result<Asymmetry> {
         let mut planes = known.to_vec();
-        planes.extend(self.symmetries().iter().map(|s| s.plane));
+        planes.extend(self.symmetries().iter().map(Symmetry::plane));
         asymmetry(&self.working.surface, self.diagonal, &planes, ctx)
     }
 }
@@ -186,7 +200,7 @@ impl Symmetrized {
     }
 
     /// Takes over what was `done`: the moved shape, its symmetries and figures.
-    fn conclude(&mut self, done: Optimized, params: &Params, ctx: &mut Context<'_>) -> Result<()> {
+    fn conclude(&mut self, done: Optimized, params: &DetectParams, ctx: &mut Context<'_>) -> Result<()> {
         let before = &self.before;
         self.shape = before.working.moved_document(&self.shape, &done.positions);
         let working = Working {

@@ -13,6 +13,7 @@ use crate::optimize::params::OptimizeParams;
 use crate::pair::PairParams;
 use crate::patch::PatchParams;
 use crate::sample::SampleParams;
+use crate::transform::Class;
 
 /// Parameters of [`crate::symmetrize`]. A parameter's dotted name is that of its section and its
 /// field, `optimize.step`, in files, in `--set` and in errors.
@@ -35,7 +36,7 @@ pub struct Params {
 
 /// What each parameter may be. The limits keep work and memory finite and formulas defined; within
 /// them not every value is wise.
-const RANGES: [(&str, f64, f64); 28] = [
+const RANGES: [(&str, f64, f64); 32] = [
     ("sample.count", 100.0, 20_000.0),
     ("pair.tolerance", 1e-6, 100.0),
     ("pair.partners", 1.0, 1000.0),
@@ -47,6 +48,10 @@ const RANGES: [(&str, f64, f64); 28] = [
     ("patch.min_area", 0.0, 1.0),
     ("patch.max_confusion", 0.0, 1.0),
     ("pair.min_strength", 0.0, 10.0),
+    ("pair.max_gap", 1e-6, 10.0),
+    ("patch.copy_tolerance", 1e-6, 0.5),
+    ("patch.min_copy", 0.0, 1.0),
+    ("patch.min_firmness", 0.0, 1.0),
     ("patch.max_doubt", 0.0, 2.0),
     ("patch.min_height", 0.0, 1.0),
     ("deform.length", 1e-4, 10.0),
@@ -144,6 +149,7 @@ impl Params {
     /// The sections that detection takes.
     pub fn detect(&self) -> DetectParams {
         DetectParams {
+            classes: Class::ALL.to_vec(),
             sample: self.sample.clone(),
             pair: self.pair.clone(),
             cluster: self.cluster.clone(),

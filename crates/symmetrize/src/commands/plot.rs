@@ -39,7 +39,7 @@ pub fn plot(args: &PlotArgs, desk: &Desk) -> Result<Answer> {
     let title = format!(
         "{}: {} votes, {} symmetries",
         args.input.title(),
-        summary::grouped(found.detection.pairs.len()),
+        summary::grouped(found.detection.clouds.iter().map(|c| c.pairs.len()).sum()),
         found.symmetries().len()
     );
     let complete = ctx.stage("picture", |_| {

@@ -40,3 +40,17 @@ pub fn any_orthogonal(n: &Vector) -> Vector {
 pub fn exp_rotation(omega: &Vector) -> Matrix3 {
     nalgebra::Rotation3::new(*omega).into_inner()
 }
+
+/// The orthogonal matrix nearest to `m` of determinant -1 if `improper`, else +1 (Kabsch 1976).
+pub fn nearest_orthogonal(m: &Matrix3, improper: bool) -> Matrix3 {
+    let svd = m.svd(true, true);
+    let (Some(u), Some(v_t)) = (svd.u, svd.v_t) else {
+        return Matrix3::identity();
+    };
+    let hand = if improper { -1.0 } else { 1.0 };
+    // The direction with the least to say takes the sign.
+    let least = svd.singular_values.imin();
+    let mut sign = Vector::repeat(1.0);
+    sign[least] = hand * (u * v_t).determinant().signum();
+    u * Matrix3::from_diagonal(&sign) * v_t
+}

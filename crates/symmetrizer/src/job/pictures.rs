@@ -37,7 +37,7 @@ pub fn before_after(job: &Symmetrized, title: &str) -> Canvas {
         return views(before, title);
     };
     let bandwidth = job.report.head.params.cluster.bandwidth;
-    let projection = Projection::new(before.detection.votes.points());
+    let projection = Projection::new(before.detection.clouds[0].votes.points());
     let votes = [before, after].map(|state| Votes::new(state, before, &projection));
     let axes = common_axes(&votes, bandwidth);
     let colors = [(before, job.planes[0]), (after, job.planes[1])]
@@ -65,7 +65,7 @@ pub fn before_after(job: &Symmetrized, title: &str) -> Canvas {
 /// The votes of `found` in the two main axes of transformation space, clusters marked: symmetries
 /// by their ids, modes that are none in grey.
 pub fn density(found: &Detected, bandwidth: f64, title: &str) -> Canvas {
-    let projection = Projection::new(found.detection.votes.points());
+    let projection = Projection::new(found.detection.clouds[0].votes.points());
     let votes = Votes::new(found, found, &projection);
     votes.plot(bandwidth, None, title).canvas(PLOT_SIDE)
 }
@@ -140,7 +140,7 @@ fn figures(job: &Symmetrized) -> String {
 fn colored_planes(found: &Detected) -> Vec<(Plane, [u8; 3])> {
     let highest = found.symmetries().iter().take(PLANES);
     highest
-        .map(|s| (s.plane, categorical(s.id as usize)))
+        .map(|s| (s.plane(), categorical(s.id as usize)))
         .collect()
 }
 
@@ -164,20 +164,20 @@ impl Votes {
     fn new(state: &Detected, home: &Detected, projection: &Projection) -> Self {
         let found = &state.detection;
         let place = |t: &Isometry| projection.project(&home.detection.space.embed(t));
-        let mark = |plane: &Plane, height, label, color| PlotMode {
-            position: place(&Isometry::mirror(plane)),
+        let mark = |t: &Isometry, height, label, color| PlotMode {
+            position: place(t),
             label,
             height,
             color,
         };
         let refused = found.refused.iter();
-        let refused = refused.map(|r| mark(&r.plane, r.height, String::new(), REFUSED_COLOR));
+        let refused = refused.map(|r| mark(&r.q_from_p, r.height, String::new(), REFUSED_COLOR));
         let symmetries = found.symmetries.iter();
         let symmetries =
-            symmetries.map(|s| mark(&s.plane, s.height, s.id.to_string(), s.id as usize));
+            symmetries.map(|s| mark(&s.q_from_p, s.height, s.id.to_string(), s.id as usize));
         Self {
-            points: found.pairs.iter().map(|v| place(&v.q_from_p)).collect(),
-            weights: found.pairs.iter().map(|v| v.weight).collect(),
+            points: found.clouds[0].pairs.iter().map(|v| place(&v.q_from_p)).collect(),
+            weights: found.clouds[0].pairs.iter().map(|v| v.weight).collect(),
             modes: symmetries.chain(refused).collect(),
         }
     }

@@ -82,7 +82,7 @@ pub fn contract(
     ctx: &mut Context<'_>,
 ) -> Result<Contracted> {
     let member = symmetry.membership(moving.samples.list.len());
-    let mut done = Contracted::start(moving, symmetry.plane);
+    let mut done = Contracted::start(moving, symmetry.plane());
     let mut couples: Vec<Couple> = Vec::new();
     for k in 0..steps {
         if k % params.redetect_every == 0 {

@@ -70,7 +70,7 @@ pub fn merge(
     let mut parts = [a, b].map(|(s, member)| Part {
         couples: Vec::new(),
         member,
-        plane: s.plane,
+        plane: s.plane(),
     });
     let mut done = Merged {
         plane: parts[0].plane,

@@ -162,7 +162,7 @@ pub fn guided_couples(
     wanted: impl Fn(u32) -> bool,
 ) -> Vec<Couple> {
     let mirror = Isometry::mirror(plane);
-    touch(&snapshot.ground(), plane, tolerance, min_cos)
+    touch(&snapshot.ground(), &mirror, tolerance, min_cos)
         .into_iter()
         .flatten()
         .filter(|pair| wanted(pair.sample))

@@ -109,7 +109,7 @@ impl Optimized {
     pub fn unmoved(surface: &Surface, detection: &Detection, outcome: Outcome) -> Self {
         Self {
             positions: surface.positions.clone(),
-            plane: detection.symmetries.first().map(|s| s.plane),
+            plane: detection.symmetries.first().map(Symmetry::plane),
             outcome,
             steps: Vec::new(),
             energy: 0.0,
@@ -227,7 +227,7 @@ fn mergeable(
     params: &OptimizeParams,
     count: usize,
 ) -> Option<[Vec<bool>; 2]> {
-    if s.plane.normal.dot(&t.plane.normal).abs() < params.merge_angle.to_radians().cos() {
+    if s.plane().normal.dot(&t.plane().normal).abs() < params.merge_angle.to_radians().cos() {
         return None;
     }
     let owned = ownership(s, t, count);
@@ -252,12 +252,12 @@ struct Schedule<'a> {
 
 impl Schedule<'_> {
     fn run(mut self, ctx: &mut Context<'_>) -> Result<Optimized> {
-        let asymmetry_before = self.asymmetry(&self.main().plane);
+        let asymmetry_before = self.asymmetry(&self.main().plane());
         ctx.stage("contract", |ctx| self.contract_all(ctx))?;
         if self.outcome != Outcome::EnergyLimit {
             ctx.stage("merge", |ctx| self.merge_all(ctx))?;
         }
-        let mut plane = self.main().plane;
+        let mut plane = self.main().plane();
         if self.outcome != Outcome::EnergyLimit {
             plane = ctx.stage("contract whole", |ctx| self.contract_whole(plane, ctx))?;
         }
@@ -320,7 +320,7 @@ impl Schedule<'_> {
                 cost: done.cost,
                 energy: done.energy,
             });
-            self.symmetries[k].plane = done.plane;
+            self.symmetries[k].q_from_p = Isometry::mirror(&done.plane);
             if done.limited {
                 self.outcome = Outcome::EnergyLimit;
                 break;
@@ -395,7 +395,7 @@ impl Schedule<'_> {
                 let Some(owned) = mergeable(s, t, self.settings.optimize, count) else {
                     continue;
                 };
-                let mirrors = (Isometry::mirror(&s.plane), Isometry::mirror(&t.plane));
+                let mirrors = (s.q_from_p, t.q_from_p);
                 let distance = space.distance(&mirrors.0, &mirrors.1);
                 if best.as_ref().is_none_or(|b| distance < b.0) {
                     best = Some((distance, i, j, owned));

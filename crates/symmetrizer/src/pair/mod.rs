@@ -1,13 +1,12 @@
 //! Compatible pairs of samples: the votes for symmetries (section 2).
 
-use nalgebra::center;
-use rayon::prelude::*;
+mod mirror;
+mod rigid;
 
-use crate::context::Context;
-use crate::error::Result;
-use crate::geom::Vector;
-use crate::sample::{Sample, Samples};
-use crate::transform::{Isometry, Plane};
+use crate::transform::Isometry;
+
+pub use mirror::mirror_pairs;
+pub use rigid::rigid_pairs;
 
 /// Which samples make a pair.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -26,6 +25,9 @@ pub struct PairParams {
     /// Smallest signature strength max |asinh k r| of a sample that votes: flat ground looks the same
     /// everywhere. 0.05, ours.
     pub min_strength: f64,
+    /// Largest rms height difference of the reliefs of a rigid pair, as a share of their own rms. 0.6,
+    /// ours.
+    pub max_gap: f64,
 }
 
 impl Default for PairParams {
@@ -36,6 +38,7 @@ impl Default for PairParams {
             min_distance: 0.06,
             normal_tolerance: 0.5,
             min_strength: 0.05,
+            max_gap: 0.6,
         }
     }
 }
@@ -53,95 +56,3 @@ pub struct Pair {
     pub weight: f64,
 }
 
-/// The mirror votes of a sampled surface: pairs with like signatures whose normals the pair's own
-/// mirror exchanges, weighted by distinctiveness.
-///
-/// # Errors
-/// [`crate::Error::Cancelled`].
-pub fn mirror_pairs(
-    samples: &Samples,
-    params: &PairParams,
-    ctx: &mut Context<'_>,
-) -> Result<Vec<Pair>> {
-    let rarity = distinctiveness(samples, params.tolerance);
-    ctx.progress(0.5)?;
-    let list = &samples.list;
-    let per_sample: Vec<Vec<Pair>> = (0..list.len())
-        .into_par_iter()
-        .map(|p| partners(list, p, params, &rarity))
-        .collect();
-    let mut pairs: Vec<Pair> = per_sample.into_iter().flatten().collect();
-    // A pair chosen from both of its ends is one vote.
-    pairs.sort_by_key(|v| (v.p, v.q));
-    pairs.dedup_by_key(|v| (v.p, v.q));
-    ctx.progress(1.0)?;
-    Ok(pairs)
-}
-
-/// 1 / the number of samples with a like signature: the one weight that matters (without
-/// it the bunny's head is lost among its back's votes).
-fn distinctiveness(samples: &Samples, tolerance: f64) -> Vec<f64> {
-    let list = &samples.list;
-    list.par_iter()
-        .map(|s| {
-            let alike = list
-                .iter()
-                .filter(|t| {
-                    let d = s.signature.distance(&t.signature);
-                    d.is_some_and(|d| d < tolerance)
-                })
-                .count();
-            1.0 / alike.max(1) as f64
-        })
-        .collect()
-}
-
-/// The best partners of sample `p`, as pairs with the smaller index first.
-fn partners(list: &[Sample], p: usize, params: &PairParams, rarity: &[f64]) -> Vec<Pair> {
-    if list[p].signature.strength() < params.min_strength {
-        return Vec::new();
-    }
-    let mut found: Vec<(f64, usize, Plane)> = (0..list.len())
-        .filter(|&q| q != p)
-        .filter_map(|q| {
-            let gap = list[p].signature.distance(&list[q].signature)?;
-            (gap < params.tolerance).then_some((gap, q))
-        })
-        .filter_map(|(gap, q)| Some((gap, q, mirror_of(&list[p], &list[q], params)?)))
-        .collect();
-    found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    found.truncate(params.partners);
-    found
-        .into_iter()
-        .map(|(_, q, plane)| Pair {
-            p: p.min(q) as u32,
-            q: p.max(q) as u32,
-            q_from_p: Isometry::mirror(&plane),
-            weight: (rarity[p] * rarity[q]).sqrt(),
-        })
-        .collect()
-}
-
-/// The mirror that exchanges two samples, where it also exchanges their normals and, where both
-/// have them, their principal directions.
-fn mirror_of(p: &Sample, q: &Sample, params: &PairParams) -> Option<Plane> {
-    let between = p.position - q.position;
-    let distance = between.norm();
-    if distance < params.min_distance {
-        return None;
-    }
-    let n = between / distance;
-    let reflect = |v: &Vector| v - 2.0 * n.dot(v) * n;
-    if (reflect(&p.normal) - q.normal).norm() > params.normal_tolerance {
-        return None;
-    }
-    if let (Some(e_p), Some(e_q)) = (p.e1, q.e1)
-        && reflect(&e_p).dot(&e_q).abs() < MIN_FRAME_AGREEMENT
-    {
-        return None;
-    }
-    Some(Plane::through(&center(&p.position, &q.position), n))
-}
-
-/// Cosine of the largest angle between principal directions of a pair, 40 degrees (ours).
-const MIN_FRAME_AGREEMENT: f64 = 0.77;

@@ -1,26 +1,34 @@
-//! Verification and region growing: how far over the surface a cluster's mirror holds.
+//! Region growing: how far over the surface a cluster's isometry holds (section 2).
 
 use rayon::prelude::*;
 
 use crate::cluster::Cluster;
-use crate::geom::{Point, PointIndex, Vector};
+use crate::geom::{Point, PointIndex};
 use crate::pair::Pair;
-use crate::patch::refine::{Contact, refine_plane};
+use crate::patch::judge::judge;
+use crate::patch::refine::{Contact, refine, weigh};
 use crate::patch::symmetry::{PatchPair, Refusal, Symmetry};
-use crate::sample::{Sample, Samples};
+use crate::sample::Samples;
 use crate::shape::{ClosestPoint, Surface};
-use crate::transform::{Ambient, Correspondence, Isometry, MirrorFit, Plane, optimal_mirror};
+use crate::transform::{
+    Ambient, Class, Correspondence, Isometry, TransformSpace, optimal_mirror,
+};
 
-/// When a mirror holds for a part of the surface.
+/// When an isometry holds for a part of the surface.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PatchParams {
-    /// Largest distance of a mirrored sample from the surface, fraction of L. 0.02, ours.
+    /// Largest distance of a sample's image from the surface, fraction of L. 0.02, ours.
     pub tolerance: f64,
-    /// Smallest cosine between mirrored and found normal. 0.75, ours (41 degrees).
+    /// Largest distance of a sample's image from the surface for other isometries than mirrors, fraction
+    /// of L. 0.008, ours: six degrees of freedom fit more by chance.
+    pub copy_tolerance: f64,
+    /// Smallest cosine between carried and found normal. 0.75, ours (41 degrees).
     pub min_cos: f64,
-    /// Smallest share of the surface's area for a symmetry. 0.08, ours.
+    /// Smallest share of the surface's area for a mirror. 0.08, ours.
     pub min_area: f64,
+    /// Smallest share of the surface's area that a copy and its image have together. 0.03, ours.
+    pub min_copy: f64,
     /// Largest confusion of the pairs, see [`Symmetry::confusion`]. 0.12, ours: true mirrors of the
     /// models stay below .105, those of shapes without symmetry start at .138.
     pub max_confusion: f64,
@@ -28,6 +36,8 @@ pub struct PatchParams {
     /// merely passes by fills the tolerance evenly (rms .58) and looks like many places. 0.6, ours:
     /// true mirrors of the models reach .58, the arms of a chiral shape start at .61.
     pub max_doubt: f64,
+    /// Smallest firmness with which a patch holds a rigid motion against sliding. 0.02, ours.
+    pub min_firmness: f64,
     /// Smallest height of a symmetry's cluster, as a share of the highest: what fewer votes speak for
     /// is chance. 0.1, ours.
     pub min_height: f64,
@@ -37,11 +47,24 @@ impl Default for PatchParams {
     fn default() -> Self {
         Self {
             tolerance: 0.02,
+            copy_tolerance: 0.008,
             min_cos: 0.75,
             min_area: 0.08,
+            min_copy: 0.03,
             max_confusion: 0.12,
             max_doubt: 0.6,
+            min_firmness: 0.02,
             min_height: 0.1,
+        }
+    }
+}
+
+impl PatchParams {
+    /// Largest distance of a sample's image from the surface, fraction of L.
+    pub fn tolerance_of(&self, class: Class) -> f64 {
+        match class {
+            Class::Mirror => self.tolerance,
+            Class::Proper | Class::Improper => self.copy_tolerance,
         }
     }
 }
@@ -56,12 +79,16 @@ pub struct Ground<'a> {
     pub samples: &'a Samples,
 }
 
-/// Tolerances of the growing rounds, in units of [`PatchParams::tolerance`]: wide first, while the
-/// cluster's plane is still rough.
-const ROUNDS: [f64; 6] = [2.5, 2.0, 1.5, 1.0, 1.0, 1.0];
+/// Tolerances of the growing rounds, in units of the class's tolerance: wide first, while the
+/// cluster's isometry is still rough.
+const MIRROR_ROUNDS: [f64; 6] = [2.5, 2.0, 1.5, 1.0, 1.0, 1.0];
+/// As a rigid motion has more freedom, its votes are rougher.
+const MOTION_ROUNDS: [f64; 7] = [5.0, 3.0, 2.0, 1.5, 1.0, 1.0, 1.0];
+/// In the last rounds contacts are weighed by how well they hold.
+const ROBUST: usize = 3;
 
 /// Grows the patch of `cluster`: from the places that voted for it, over neighbouring samples,
-/// as long as their mirror images lie on the surface; the mirror is refitted as the patch grows.
+/// as long as their images lie on the surface; the isometry is refitted as the patch grows.
 ///
 /// # Errors
 /// [`Refusal`] where no symmetry worth the name comes out, with the reason.
@@ -69,107 +96,141 @@ pub fn grow_patch(
     ground: &Ground<'_>,
     pairs: &[Pair],
     cluster: &Cluster,
+    class: Class,
+    space: &TransformSpace,
     params: &PatchParams,
 ) -> Result<Symmetry, Refusal> {
     let list = &ground.samples.list;
+    let mut t = start(ground.samples, pairs, cluster, class, space);
+    let votes = cluster.votes.iter().map(|&i| &pairs[i as usize]);
+    // Either end of a mirror's vote lies in the patch; else the first does, the second in the image.
+    let both = class == Class::Mirror;
+    let mut seeds: Vec<u32> = votes
+        .flat_map(|v| std::iter::once(v.p).chain(both.then_some(v.q)))
+        .collect();
+    seeds.sort_unstable();
+    seeds.dedup();
+    let near = seeds.first().map_or(Point::origin(), |&s| list[s as usize].position);
+    let refuse = |t: Isometry, reason: String| Refusal {
+        class,
+        q_from_p: t,
+        height: cluster.height,
+        reason,
+        near,
+    };
+    let tolerance = params.tolerance_of(class);
+    let rounds: &[f64] = if both { &MIRROR_ROUNDS } else { &MOTION_ROUNDS };
+    let mut grown = Vec::new();
+    for (k, round) in rounds.iter().enumerate() {
+        grown = reach(ground, &t, round * tolerance, params.min_cos, &seeds);
+        if grown.is_empty() {
+            return Err(refuse(t, "its votes do not hold on the surface".into()));
+        }
+        let mut contacts = contacts(ground, &grown);
+        if k + ROBUST >= rounds.len() {
+            weigh(&t, &mut contacts);
+        }
+        t = refine(&t, class, &contacts);
+    }
+    judge(ground, grown, t, class, cluster.height, params).map_err(|reason| refuse(t, reason))
+}
+
+/// The isometry that a cluster's votes agree on: appendix A for mirrors, else the mean of the cloud.
+fn start(
+    samples: &Samples,
+    pairs: &[Pair],
+    cluster: &Cluster,
+    class: Class,
+    space: &TransformSpace,
+) -> Isometry {
+    let mean = || space.nearest(&cluster.mode, class.is_improper());
+    if class != Class::Mirror {
+        return mean();
+    }
     let votes: Vec<Correspondence> = cluster
         .votes
         .iter()
         .map(|&i| &pairs[i as usize])
         .map(|v| Correspondence {
-            p: list[v.p as usize].position,
-            q: list[v.q as usize].position,
+            p: samples.list[v.p as usize].position,
+            q: samples.list[v.q as usize].position,
             weight: v.weight,
         })
         .collect();
-    let refuse = |plane: Plane, reason: String| Refusal {
-        plane,
-        height: cluster.height,
-        reason,
-        near: votes.first().map_or(Point::origin(), |v| v.p),
-    };
-    let Some(first) = optimal_mirror(&votes, Ambient::Space) else {
-        let plane = Plane {
-            normal: Vector::x(),
-            offset: 0.0,
-        };
-        return Err(refuse(
-            plane,
-            "its votes leave the mirror undetermined".into(),
-        ));
-    };
-    let mut plane = first.plane;
-    let seeds: Vec<u32> = cluster
-        .votes
-        .iter()
-        .flat_map(|&i| [pairs[i as usize].p, pairs[i as usize].q])
-        .collect();
-    let mut grown = Vec::new();
-    for round in ROUNDS {
-        let touched = touch(ground, &plane, round * params.tolerance, params.min_cos);
-        grown = connected(ground.samples, touched, &seeds);
-        if grown.is_empty() {
-            return Err(refuse(plane, "its votes do not hold on the surface".into()));
-        }
-        plane = refine_plane(&plane, &contacts(ground, &grown));
-    }
-    assess(ground, grown, plane, cluster.height, params).map_err(|reason| refuse(plane, reason))
+    optimal_mirror(&votes, Ambient::Space).map_or_else(mean, |fit| Isometry::mirror(&fit.plane))
 }
 
-/// For each sample the closest facing surface point to its mirror image, where it is near enough.
+/// For each sample the closest facing surface point to its image under `t`, where it is near enough.
 pub fn touch(
     ground: &Ground<'_>,
-    plane: &Plane,
+    t: &Isometry,
     tolerance: f64,
     min_cos: f64,
 ) -> Vec<Option<PatchPair>> {
-    let mirror = Isometry::mirror(plane);
-    ground
-        .samples
-        .list
-        .par_iter()
-        .enumerate()
-        .map(|(i, s)| {
-            let image = mirror.apply(&s.position);
-            let normal = mirror.rotate(&s.normal);
-            let hit = ground
-                .closest
-                .nearest_facing(&image, &normal, min_cos, tolerance)?;
-            Some(PatchPair {
-                sample: i as u32,
-                partner: hit.at,
-                residual: hit.distance,
-            })
-        })
+    (0..ground.samples.list.len() as u32)
+        .into_par_iter()
+        .map(|s| touch_one(ground, t, s, tolerance, min_cos))
         .collect()
 }
 
-/// The samples that can be reached from a seed over touched neighbours.
-fn connected(samples: &Samples, touched: Vec<Option<PatchPair>>, seeds: &[u32]) -> Vec<PatchPair> {
-    let mut reached = vec![false; touched.len()];
-    let mut stack: Vec<u32> = Vec::new();
+fn touch_one(
+    ground: &Ground<'_>,
+    t: &Isometry,
+    sample: u32,
+    tolerance: f64,
+    min_cos: f64,
+) -> Option<PatchPair> {
+    let s = &ground.samples.list[sample as usize];
+    let (image, normal) = (t.apply(&s.position), t.rotate(&s.normal));
+    let hit = ground
+        .closest
+        .nearest_facing(&image, &normal, min_cos, tolerance)?;
+    Some(PatchPair {
+        sample,
+        partner: hit.at,
+        residual: hit.distance,
+    })
+}
+
+/// The samples that can be reached from a seed over neighbours whose images touch the surface, by
+/// sample.
+fn reach(
+    ground: &Ground<'_>,
+    t: &Isometry,
+    tolerance: f64,
+    min_cos: f64,
+    seeds: &[u32],
+) -> Vec<PatchPair> {
+    let samples = ground.samples;
+    let mut seen = vec![false; samples.list.len()];
+    let mut front: Vec<u32> = seeds.to_vec();
     for &s in seeds {
-        if touched[s as usize].is_some() && !reached[s as usize] {
-            reached[s as usize] = true;
-            stack.push(s);
-        }
+        seen[s as usize] = true;
     }
-    while let Some(s) = stack.pop() {
-        for &t in &samples.neighbors[s as usize] {
-            if touched[t as usize].is_some() && !reached[t as usize] {
-                reached[t as usize] = true;
-                stack.push(t);
+    let mut grown = Vec::new();
+    while !front.is_empty() {
+        let touched: Vec<PatchPair> = front
+            .par_iter()
+            .with_min_len(64)
+            .filter_map(|&s| touch_one(ground, t, s, tolerance, min_cos))
+            .collect();
+        front.clear();
+        for pair in &touched {
+            for &next in &samples.neighbors[pair.sample as usize] {
+                if !seen[next as usize] {
+                    seen[next as usize] = true;
+                    front.push(next);
+                }
             }
         }
+        grown.extend(touched);
     }
-    touched
-        .into_iter()
-        .zip(reached)
-        .filter_map(|(pair, reached)| pair.filter(|_| reached))
-        .collect()
+    grown.sort_by_key(|p| p.sample);
+    grown
 }
 
-fn contacts(ground: &Ground<'_>, grown: &[PatchPair]) -> Vec<Contact> {
+/// The pairs of a patch as contacts of weight 1.
+pub fn contacts(ground: &Ground<'_>, grown: &[PatchPair]) -> Vec<Contact> {
     grown
         .iter()
         .map(|pair| Contact {
@@ -181,106 +242,21 @@ fn contacts(ground: &Ground<'_>, grown: &[PatchPair]) -> Vec<Contact> {
         .collect()
 }
 
-/// The symmetry of a grown patch, or the reason why it is none.
-fn assess(
-    ground: &Ground<'_>,
-    grown: Vec<PatchPair>,
-    plane: Plane,
-    height: f64,
-    params: &PatchParams,
-) -> Result<Symmetry, String> {
-    let count = ground.samples.list.len();
-    let area_fraction = grown.len() as f64 / count as f64;
-    if area_fraction < params.min_area {
-        return Err(format!(
-            "holds for {:.1} % of the surface only",
-            100.0 * area_fraction
-        ));
-    }
-    let fit = mirror_of(ground, &grown).ok_or("its pairs leave the mirror undetermined")?;
-    if !fit.is_well_conditioned() {
-        return Err(format!(
-            "badly conditioned: explains {:.2} of its pairs, eigenvalue gap {:.2}",
-            fit.explained, fit.gap
-        ));
-    }
-    let confusion = confusion(ground, &grown);
-    if confusion > params.max_confusion {
-        return Err(format!(
-            "partners look no more alike than many other places (confusion {confusion:.2})"
-        ));
-    }
-    let mean_square = grown.iter().map(|p| p.residual.powi(2)).sum::<f64>() / grown.len() as f64;
-    let rms = mean_square.sqrt();
-    if rms / params.tolerance + confusion > params.max_doubt {
-        return Err(format!(
-            "its image passes by the surface rather than lies on it (rms {:.2} of the tolerance, \
-             confusion {confusion:.2})",
-            rms / params.tolerance
-        ));
-    }
-    Ok(Symmetry {
-        id: 0,
-        plane: plane.canonical(),
-        height,
-        area_fraction,
-        rms,
-        confusion,
-        explained: fit.explained,
-        gap: fit.gap,
-        pairs: grown,
-    })
-}
-
-/// Appendix A over a patch's pairs.
-pub fn mirror_of(ground: &Ground<'_>, pairs: &[PatchPair]) -> Option<MirrorFit> {
-    let pairs: Vec<Correspondence> = pairs
-        .iter()
-        .map(|pair| Correspondence {
-            p: ground.samples.list[pair.sample as usize].position,
-            q: ground.surface.point(&pair.partner),
-            weight: 1.0,
-        })
-        .collect();
-    optimal_mirror(&pairs, Ambient::Space)
-}
-
-/// The median, over the pairs, of the share of all samples that look more like the sample than what
-/// lies at its partner's place. Pairs across less than the widest curvature radius see the same
-/// ground from both sides and do not count.
-fn confusion(ground: &Ground<'_>, grown: &[PatchPair]) -> f64 {
-    let list = &ground.samples.list;
-    let places: Vec<[f64; 3]> = list.iter().map(|s| s.position.coords.into()).collect();
+/// The samples that lie in the image of a patch: those next to a partner and facing its way.
+pub fn image(ground: &Ground<'_>, grown: &[PatchPair]) -> Vec<u32> {
+    let partners: Vec<Point> = grown.iter().map(|p| ground.surface.point(&p.partner)).collect();
+    let places: Vec<[f64; 3]> = partners.iter().map(|p| p.coords.into()).collect();
     let index = PointIndex::new(&places);
-    let too_near = 2.0 * ground.samples.radius;
-    let mut ranks: Vec<f64> = grown
-        .par_iter()
-        .filter_map(|pair| {
-            let s = &list[pair.sample as usize];
-            let y = ground.surface.point(&pair.partner);
-            if (y - s.position).norm() < too_near {
-                return None;
-            }
-            let normal = ground.surface.normal(&pair.partner);
-            let distance = |t: &Sample| (t.position - y).norm_squared();
-            let there = index
-                .within(&y.coords.into(), 1.5 * ground.samples.spacing)
+    let list = &ground.samples.list;
+    // Partners lie as densely as samples do: none is further from one than the spacing.
+    (0..list.len() as u32)
+        .into_par_iter()
+        .filter(|&i| {
+            let s = &list[i as usize];
+            index
+                .within(&s.position.coords.into(), ground.samples.spacing)
                 .into_iter()
-                .map(|j| &list[j as usize])
-                .filter(|t| t.normal.dot(&normal) > 0.5)
-                .min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-            let gap = s.signature.distance(&there.signature)?;
-            let closer = list
-                .iter()
-                .filter(|t| s.signature.distance(&t.signature).is_some_and(|d| d < gap))
-                .count();
-            Some(closer as f64 / list.len() as f64)
+                .any(|k| ground.surface.normal(&grown[k as usize].partner).dot(&s.normal) > 0.25)
         })
-        .collect();
-    median(&mut ranks).unwrap_or(1.0)
-}
-
-fn median(values: &mut [f64]) -> Option<f64> {
-    let middle = values.len() / 2;
-    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
+        .collect()
 }

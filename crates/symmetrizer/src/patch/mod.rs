@@ -2,6 +2,7 @@
 
 pub mod grow;
 pub mod ids;
+pub mod judge;
 pub mod refine;
 pub mod symmetry;
 

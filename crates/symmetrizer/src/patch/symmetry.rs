@@ -1,31 +1,35 @@
-//! A symmetry of a surface: a mirror, the part of the surface it holds for, its pairs.
+//! A symmetry of a surface: an isometry, the part of the surface it holds for, its pairs.
 
 use crate::geom::Point;
 use crate::shape::SurfacePoint;
-use crate::transform::Plane;
+use crate::transform::{Class, Isometry, Plane};
 
 /// A sample and its symmetric partner on the surface.
 #[derive(Debug, Clone, Copy)]
 pub struct PatchPair {
     /// Index of the sample.
     pub sample: u32,
-    /// The partner of the sample: the surface point closest to its mirror image.
+    /// The partner of the sample: the surface point closest to its image.
     pub partner: SurfacePoint,
-    /// Distance of the partner from the mirror image, fraction of L.
+    /// Distance of the partner from the image, fraction of L.
     pub residual: f64,
 }
 
-/// A verified mirror symmetry of a part of a surface.
+/// A verified symmetry of a part of a surface.
 #[derive(Debug, Clone)]
 pub struct Symmetry {
     /// Stable name within a job.
     pub id: u32,
-    /// The mirror, working coordinates.
-    pub plane: Plane,
+    /// The cloud it was found in.
+    pub class: Class,
+    /// The isometry that carries the patch onto its image, working coordinates.
+    pub q_from_p: Isometry,
     /// Kernel density of the votes it was found by.
     pub height: f64,
-    /// The pairs, one for each sample of the patch, by sample.
+    /// The pairs, one for each sample of the patch, by sample. A mirror's patch is both of its sides.
     pub pairs: Vec<PatchPair>,
+    /// The samples of the image, increasing; a mirror's are those of the patch.
+    pub image: Vec<u32>,
     /// Patch and image as a share of the surface's area.
     pub area_fraction: f64,
     /// rms residual over the pairs, fraction of L.
@@ -33,13 +37,14 @@ pub struct Symmetry {
     /// The median, over the pairs, of the share of all samples that look more like a sample than its
     /// partner does: 0 where partners are unique, 0.5 where they are any two places.
     pub confusion: f64,
-    /// The explained fraction of the mirror fit (1 for a perfect mirror).
-    pub explained: f64,
-    /// The eigenvalue gap of the mirror fit (0 where the normal is undetermined).
-    pub gap: f64,
 }
 
 impl Symmetry {
+    /// The mirror plane; of what is none, the plane of the nearest mirror.
+    pub fn plane(&self) -> Plane {
+        self.q_from_p.nearest_mirror(&Point::origin()).canonical()
+    }
+
     /// Which of `count` samples belong to the patch.
     pub fn membership(&self, count: usize) -> Vec<bool> {
         let mut member = vec![false; count];
@@ -59,12 +64,14 @@ impl Symmetry {
 /// Why a cluster did not become a symmetry.
 #[derive(Debug, Clone)]
 pub struct Refusal {
-    /// The cluster's plane.
-    pub plane: Plane,
+    /// The cloud of the cluster.
+    pub class: Class,
+    /// The cluster's isometry.
+    pub q_from_p: Isometry,
     /// The cluster's height.
     pub height: f64,
     /// The reason, for people.
     pub reason: String,
-    /// A point of the plane near the votes, for pictures.
+    /// A point near the votes, for pictures.
     pub near: Point,
 }

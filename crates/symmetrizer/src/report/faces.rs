@@ -7,6 +7,7 @@ use crate::job::Detected;
 use crate::patch::Symmetry;
 use crate::sample::Samples;
 use crate::shape::Surface;
+use crate::transform::Class;
 
 /// How far the sample of a face is looked for, in units of the samples' spacing: they leave no gap
 /// wider than this.
@@ -47,18 +48,27 @@ impl FaceSamples {
         Self { nearest, centroids }
     }
 
-    /// The working triangles that `symmetry` holds for: the patch, on the side n.x < offset, and its
-    /// image, on the other; each increasing.
+    /// The working triangles that `symmetry` holds for: its patch and its image, of a mirror the sides
+    /// n.x < offset and above; each increasing.
     pub fn patch(&self, symmetry: &Symmetry, samples: usize) -> [Vec<u32>; 2] {
-        let member = symmetry.membership(samples);
-        let mut sides = [Vec::new(), Vec::new()];
-        for (f, nearest) in self.nearest.iter().enumerate() {
-            if nearest.is_some_and(|s| member[s as usize]) {
-                let side = symmetry.plane.signed_distance(&self.centroids[f]) >= 0.0;
-                sides[usize::from(side)].push(f as u32);
+        let patch = symmetry.membership(samples);
+        if symmetry.class != Class::Mirror {
+            let mut image = vec![false; samples];
+            for &s in &symmetry.image {
+                image[s as usize] = true;
             }
+            return [self.faces(&patch).collect(), self.faces(&image).collect()];
         }
-        sides
+        let plane = symmetry.plane();
+        let above = |f: &u32| plane.signed_distance(&self.centroids[*f as usize]) >= 0.0;
+        let (image, patch) = self.faces(&patch).partition(above);
+        [patch, image]
+    }
+
+    /// The triangles whose samples are members.
+    fn faces(&self, member: &[bool]) -> impl Iterator<Item = u32> {
+        let faces = self.nearest.iter().zip(0..);
+        faces.filter_map(|(s, f)| s.is_some_and(|s| member[s as usize]).then_some(f))
     }
 }
 

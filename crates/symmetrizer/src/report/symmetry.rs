@@ -3,13 +3,13 @@
 use serde::Serialize;
 
 use crate::apply::measure::PlaneReport;
-use crate::geom::Vector;
+use crate::geom::Point;
 use crate::job::Detected;
 use crate::patch::{Refusal, Symmetry};
 use crate::report::faces::FaceSamples;
 use crate::shape::SurfacePoint;
 use crate::shape::working::{Normalization, Working};
-use crate::transform::{Isometry, Plane};
+use crate::transform::Isometry;
 
 /// A symmetry in document coordinates.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -55,7 +55,7 @@ impl RefusalReport {
     /// `refusal` in document coordinates.
     pub fn new(refusal: &Refusal, normalization: &Normalization) -> Self {
         Self {
-            plane: PlaneReport::new(&refusal.plane, normalization),
+            plane: PlaneReport::new(&refusal.q_from_p.nearest_mirror(&Point::origin()), normalization),
             height: refusal.height,
             reason: refusal.reason.clone(),
         }
@@ -80,7 +80,7 @@ fn report(
 ) -> SymmetryReport {
     let working = &found.working;
     let samples = &found.detection.samples.list;
-    let plane = PlaneReport::new(&symmetry.plane, &working.normalization);
+    let plane = PlaneReport::new(&symmetry.plane(), &working.normalization);
     let numbered = |faces: Vec<u32>| {
         let number = |f: u32| working.document_face[f as usize];
         faces.into_iter().map(number).collect()
@@ -88,8 +88,12 @@ fn report(
     let [patch, image] = faces.patch(symmetry, samples.len());
     SymmetryReport {
         id: symmetry.id,
-        kind: "mirror",
-        matrix: matrix(&plane),
+        kind: match symmetry.class {
+            crate::transform::Class::Mirror => "mirror",
+            crate::transform::Class::Proper => "proper",
+            crate::transform::Class::Improper => "improper",
+        },
+        matrix: matrix(&symmetry.q_from_p, &working.normalization),
         plane,
         continuous: false,
         height: symmetry.height,
@@ -101,17 +105,17 @@ fn report(
     }
 }
 
-/// The reflection in `plane` as rows of a homogeneous matrix.
-fn matrix(plane: &PlaneReport) -> [[f64; 4]; 4] {
-    let mirror = Isometry::mirror(&Plane {
-        normal: Vector::from(plane.normal),
-        offset: plane.offset,
-    });
-    let homogeneous = mirror.linear.to_homogeneous();
+/// The isometry in document coordinates as rows of a homogeneous matrix.
+fn matrix(t: &Isometry, normalization: &Normalization) -> [[f64; 4]; 4] {
+    // x_d = c + L x_w on both sides.
+    let c = normalization.center.coords;
+    let translation = c - t.linear * c + t.translation * normalization.scale;
     std::array::from_fn(|r| {
         std::array::from_fn(|c| match (r, c) {
-            (0..3, 3) => mirror.translation[r],
-            _ => homogeneous[(r, c)],
+            (3, 3) => 1.0,
+            (3, _) => 0.0,
+            (_, 3) => translation[r],
+            _ => t.linear[(r, c)],
         })
     })
 }
@@ -126,7 +130,7 @@ fn pairs(symmetry: &Symmetry, found: &Detected, documents: &[u32]) -> Vec<[u32; 
         .map(|pair| {
             let sample = &samples[pair.sample as usize];
             let (i, j) = (vertex(&sample.at), vertex(&pair.partner));
-            if symmetry.plane.signed_distance(&sample.position) < 0.0 {
+            if symmetry.plane().signed_distance(&sample.position) < 0.0 {
                 [i, j]
             } else {
                 [j, i]

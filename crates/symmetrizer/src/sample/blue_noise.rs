@@ -10,25 +10,36 @@ use crate::sample::uniform::uniform;
 use crate::shape::surface::{Surface, SurfacePoint};
 
 /// Darts thrown per sample wanted; more would fill the last gaps and cost time.
-const DARTS_PER_SAMPLE: usize = 12;
+pub const DARTS_PER_SAMPLE: usize = 12;
 
 /// About `count` surface points no two of which are closer than the returned spacing (fraction of
 /// L), sides of a thin sheet apart: darts with opposed normals do not see each other.
 pub fn blue_noise(surface: &Surface, count: usize, rng: &mut Pcg64) -> (Vec<SurfacePoint>, f64) {
-    // A saturated set covers 0.7 of the densest packing, 2 / (sqrt 3 r^2) points per area.
-    let spacing = (0.7 * 2.0 / 3.0_f64.sqrt() * surface.area() / count as f64).sqrt();
+    let spacing = spacing(surface.area(), count);
+    let darts = uniform(surface, DARTS_PER_SAMPLE * count, rng);
+    (spread(surface, darts, spacing, rng), spacing)
+}
+
+/// The spacing of about `count` points that fill `area`: a saturated set covers 0.7 of the densest
+/// packing, 2 / (sqrt 3 r^2) points per area.
+pub fn spacing(area: f64, count: usize) -> f64 {
+    (0.7 * 2.0 / 3.0_f64.sqrt() * area / count as f64).sqrt()
+}
+
+/// Those of `darts`, thrown in random order, that keep the `spacing`.
+pub fn spread(
+    surface: &Surface,
+    mut darts: Vec<SurfacePoint>,
+    spacing: f64,
+    rng: &mut Pcg64,
+) -> Vec<SurfacePoint> {
     let mut grid = Grid::new(spacing);
-    let mut kept = Vec::with_capacity(count);
-    let mut darts = uniform(surface, DARTS_PER_SAMPLE * count, rng);
     darts.shuffle(rng);
-    for dart in darts {
-        let x = surface.point(&dart);
+    darts.retain(|dart| {
         let n = surface.face_normals[dart.face as usize];
-        if grid.insert(x, n) {
-            kept.push(dart);
-        }
-    }
-    (kept, spacing)
+        grid.insert(surface.point(dart), n)
+    });
+    darts
 }
 
 /// Points with normals in cells of the spacing's size.

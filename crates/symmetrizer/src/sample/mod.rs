@@ -1,11 +1,13 @@
 //! Samples of a surface and their signatures (section 2).
 
 pub mod blue_noise;
+pub mod probes;
 pub mod relief;
 pub mod samples;
 pub mod signature;
 pub mod uniform;
 
+pub use probes::{Probe, probes};
 pub use relief::{Frame, Relief};
 pub use samples::{Sample, SampleParams, Samples, sample};
 pub use signature::Signature;

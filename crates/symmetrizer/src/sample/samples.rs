@@ -59,6 +59,47 @@ pub struct Samples {
     pub neighbors: Vec<Vec<u32>>,
 }
 
+/// Makes samples of surface points.
+pub struct Describer<'a> {
+    surface: &'a Surface,
+    cloud: Cloud,
+    harmonics: Harmonics,
+    /// Radius of the smallest curvature fit, fraction of L.
+    r0: f64,
+}
+
+impl<'a> Describer<'a> {
+    /// For points of `surface`.
+    pub fn new(surface: &'a Surface) -> Self {
+        let r0 = base_radius(surface);
+        Self {
+            surface,
+            cloud: Cloud::new(surface, r0 / 2.0),
+            harmonics: Harmonics::new(),
+            r0,
+        }
+    }
+
+    /// The sample at a surface point.
+    pub fn sample(&self, at: &SurfacePoint) -> Sample {
+        let (signature, e1, n) = describe(self.surface, &self.cloud, at, self.r0);
+        let frame = Frame {
+            n,
+            e1: any_orthogonal(&n),
+        };
+        let position = self.surface.point(at);
+        Sample {
+            at: *at,
+            position,
+            normal: self.surface.normal(at),
+            signature,
+            e1,
+            frame,
+            relief: self.harmonics.relief(&self.cloud, &position, &frame, self.r0),
+        }
+    }
+}
+
 /// Samples `surface` (section 2): blue noise, signatures, neighbour graph.
 ///
 /// # Errors
@@ -69,36 +110,15 @@ pub fn sample(surface: &Surface, params: &SampleParams, ctx: &mut Context<'_>) -
     }
     let (points, spacing) = blue_noise(surface, params.count, &mut ctx.rng("sample"));
     ctx.progress(0.2)?;
-    let r0 = base_radius(surface);
-    let cloud = Cloud::new(surface, r0 / 2.0);
-    let harmonics = Harmonics::new();
-    let list: Vec<Sample> = points
-        .par_iter()
-        .map(|at| {
-            let (signature, e1, n) = describe(surface, &cloud, at, r0);
-            let frame = Frame {
-                n,
-                e1: any_orthogonal(&n),
-            };
-            let position = surface.point(at);
-            Sample {
-                at: *at,
-                position,
-                normal: surface.normal(at),
-                signature,
-                e1,
-                frame,
-                relief: harmonics.relief(&cloud, &position, &frame, r0),
-            }
-        })
-        .collect();
+    let describer = Describer::new(surface);
+    let list: Vec<Sample> = points.par_iter().map(|at| describer.sample(at)).collect();
     ctx.progress(0.9)?;
     let neighbors = neighbors(&list, 2.1 * spacing);
     Ok(Samples {
         area: surface.area() / list.len().max(1) as f64,
         list,
         spacing,
-        radius: r0,
+        radius: describer.r0,
         neighbors,
     })
 }

@@ -4,7 +4,7 @@ use crate::geom::Vector;
 use crate::shape::curvature::{Cloud, Curvature};
 use crate::shape::surface::{Surface, SurfacePoint};
 
-/// The number of radii: r0, 2 r0, 4 r0 (docs/definitions.md: r0 = 2.5 mean edges, within 0.02 and 0.1 L).
+/// The number of radii: r0, 2 r0, 4 r0 (docs/definitions.md: r0 = 2.5 median edges, within 0.02 and 0.1 L).
 pub const SCALES: usize = 3;
 
 /// Curvatures at each radius r as (asinh k1 r, asinh k2 r): dimensionless, the same for a shape
@@ -36,7 +36,7 @@ impl Signature {
 /// The radius r0 of the smallest fit, fraction of L: wide enough for the triangles, narrow enough that
 /// the widest fit still sees a part and not the whole.
 pub fn base_radius(surface: &Surface) -> f64 {
-    (2.5 * surface.mean_edge()).clamp(0.02, 0.1)
+    (2.5 * surface.median_edge()).clamp(0.02, 0.1)
 }
 
 /// The signature at a surface point, its frame's first direction (that of k1 at the middle radius,

@@ -112,6 +112,22 @@ impl Surface {
         sides
     }
 
+    /// Median length of the triangles' sides (inner edges count twice), in units of L: that of the
+    /// detail, however large the triangles of a plain beside it are.
+    pub fn median_edge(&self) -> f64 {
+        let mut sides: Vec<f64> = (0..self.triangles.len() as u32)
+            .flat_map(|f| {
+                let [a, b, c] = self.corners(f);
+                [(b - a).norm(), (c - b).norm(), (a - c).norm()]
+            })
+            .collect();
+        let middle = sides.len() / 2;
+        if sides.is_empty() {
+            return 0.0;
+        }
+        *sides.select_nth_unstable_by(middle, f64::total_cmp).1
+    }
+
     /// Mean edge length over the triangles' sides (inner edges count twice), in units of L.
     pub fn mean_edge(&self) -> f64 {
         let total: f64 = (0..self.triangles.len() as u32)

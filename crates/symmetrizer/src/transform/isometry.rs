@@ -1,6 +1,6 @@
 //! One type for every isometry of space: x -> R x + t with R orthogonal, det R = +-1.
 
-use crate::geom::{Matrix3, Point, Vector};
+use crate::geom::{Matrix3, Point, Vector, sorted_eigen};
 
 /// An isometry x -> `linear` x + `translation`; a mirror is one kind of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -96,6 +96,14 @@ impl Isometry {
     /// Whether the isometry turns left hands into right hands.
     pub fn is_improper(&self) -> bool {
         self.linear.determinant() < 0.0
+    }
+
+    /// The mirror that comes nearest to an improper isometry on points around `center`: its normal is
+    /// the direction that is turned round most.
+    pub fn nearest_mirror(&self, center: &Point) -> Plane {
+        let symmetric = self.linear + self.linear.transpose();
+        let normal = sorted_eigen(&symmetric).1.column(0).into_owned();
+        Plane::through(&nalgebra::center(center, &self.apply(center)), normal)
     }
 
     /// The plane, where this is a pure reflection (to 1e-6 in R and, relative to |t|, in t).

@@ -1,10 +1,12 @@
 //! Isometries, the space they form, and the closed forms of section 3 and appendix A.
 
+pub mod class;
 pub mod displacement;
 pub mod isometry;
 pub mod optimal;
 pub mod space;
 
+pub use class::Class;
 pub use displacement::displacements;
 pub use isometry::{Isometry, Plane};
 pub use optimal::{Ambient, Correspondence, MirrorFit, optimal_mirror};

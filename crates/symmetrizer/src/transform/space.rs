@@ -7,7 +7,7 @@
 
 use nalgebra::SVector;
 
-use crate::geom::{Matrix3, Point, Vector, sorted_eigen};
+use crate::geom::{Matrix3, Point, Vector, nearest_orthogonal, sorted_eigen};
 use crate::transform::isometry::Isometry;
 
 /// A transformation as a point of transformation space.
@@ -50,6 +50,23 @@ impl TransformSpace {
         Phi::from_iterator(turned.iter().chain(moved.iter()).copied())
     }
 
+    /// The isometry whose phi is nearest to `phi`, proper or improper as asked: the mean of a set of
+    /// isometries from the mean of their phi.
+    pub fn nearest(&self, phi: &Phi, improper: bool) -> Isometry {
+        let turned = Matrix3::from_iterator(phi.iter().take(9).copied());
+        let moved = Vector::from_iterator(phi.iter().skip(9).copied());
+        let linear = nearest_orthogonal(&(turned * self.root_c), improper);
+        Isometry {
+            linear,
+            translation: moved - linear * self.mu,
+        }
+    }
+
+    /// The centroid of the support.
+    pub fn center(&self) -> Point {
+        Point::from(self.mu)
+    }
+
     /// The rms displacement between two transformations over the support.
     pub fn distance(&self, a: &Isometry, b: &Isometry) -> f64 {
         (self.embed(a) - self.embed(b)).norm()
@@ -86,5 +103,9 @@ mod tests {
             .sum::<f64>()
             / total;
         assert!((space.distance(&a, &b) - mean.sqrt()).abs() < 1e-13);
+        for t in [a, b] {
+            let again = space.nearest(&space.embed(&t), t.is_improper());
+            assert!(space.distance(&t, &again) < 1e-13);
+        }
     }
 }

@@ -1,0 +1,122 @@
+//! Detection: samples, pairs, clusters and patches in a row, a cloud of votes for each class
+//! (section 2).
+
+mod search;
+
+use crate::cluster::{ClusterParams, Votes};
+use crate::context::Context;
+use crate::error::Result;
+use crate::pair::{Pair, PairParams, mirror_pairs, rigid_pairs};
+use crate::patch::grow::Ground;
+use crate::patch::{PatchParams, Refusal, Symmetry};
+use crate::sample::{SampleParams, Samples, probes, sample};
+use crate::shape::{ClosestPoint, Surface};
+use crate::transform::{Class, TransformSpace};
+
+/// Parameters of detection, a section for each stage.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct DetectParams {
+    /// What is looked for.
+    pub classes: Vec<Class>,
+    /// Samples.
+    pub sample: SampleParams,
+    /// Pairs.
+    pub pair: PairParams,
+    /// Clusters.
+    pub cluster: ClusterParams,
+    /// Patches.
+    pub patch: PatchParams,
+}
+
+impl Default for DetectParams {
+    fn default() -> Self {
+        Self {
+            classes: Class::ALL.to_vec(),
+            sample: SampleParams::default(),
+            pair: PairParams::default(),
+            cluster: ClusterParams::default(),
+            patch: PatchParams::default(),
+        }
+    }
+}
+
+/// The votes of one class.
+pub struct Cloud {
+    /// The class.
+    pub class: Class,
+    /// The votes' pairs.
+    pub pairs: Vec<Pair>,
+    /// The votes, those explained by a symmetry with weight 0.
+    pub votes: Votes,
+}
+
+/// What detection found on a surface.
+pub struct Detection {
+    /// The samples.
+    pub samples: Samples,
+    /// Transformation space of the surface.
+    pub space: TransformSpace,
+    /// The votes, a cloud for each class that was looked for.
+    pub clouds: Vec<Cloud>,
+    /// Verified symmetries, class by class, the highest first.
+    pub symmetries: Vec<Symmetry>,
+    /// Modes that were looked at and refused.
+    pub refused: Vec<Refusal>,
+}
+
+/// Finds the symmetries of `surface`, partial ones too.
+///
+/// # Errors
+/// [`crate::Error::Params`], [`crate::Error::Cancelled`].
+pub fn detect(
+    surface: &Surface,
+    params: &DetectParams,
+    ctx: &mut Context<'_>,
+) -> Result<Detection> {
+    let samples = ctx.stage("sample", |ctx| sample(surface, &params.sample, ctx))?;
+    let space = TransformSpace::new(samples.list.iter().map(|s| (s.position, 1.0)));
+    let closest = ClosestPoint::new(surface);
+    let ground = Ground {
+        surface,
+        closest: &closest,
+        samples: &samples,
+    };
+    let probes = ctx.stage("probe", |ctx| {
+        let rigid = params.classes.iter().any(|&c| c != Class::Mirror);
+        let count = if rigid { params.sample.count } else { 0 };
+        Ok(probes(surface, &samples, count, &mut ctx.rng("probe")))
+    })?;
+    let mut clouds = Vec::new();
+    let mut symmetries: Vec<Symmetry> = Vec::new();
+    let mut refused = Vec::new();
+    for &class in &params.classes {
+        let pairs = ctx.stage("pair", |ctx| match class {
+            Class::Mirror => mirror_pairs(&samples, &params.pair, ctx),
+            _ => rigid_pairs(&probes, class, &space, &params.pair, ctx),
+        })?;
+        let votes = Votes::new(&pairs, &space);
+        let mut cloud = Cloud {
+            class,
+            pairs,
+            votes,
+        };
+        let clusters = ctx.stage("cluster", |_| Ok(cloud.votes.clusters(&params.cluster)))?;
+        let found = ctx.stage("patch", |ctx| {
+            search::search(&ground, &space, clusters, &mut cloud, &symmetries, params, ctx)
+        })?;
+        for symmetry in found.symmetries {
+            let id = symmetries.len() as u32;
+            symmetries.push(Symmetry { id, ..symmetry });
+        }
+        refused.extend(found.refused);
+        clouds.push(cloud);
+    }
+    Ok(Detection {
+        samples,
+        space,
+        clouds,
+        symmetries,
+        refused,
+    })
+}

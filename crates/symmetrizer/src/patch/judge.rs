@@ -1,0 +1,173 @@
+//! Whether a grown patch is a symmetry: area, conditioning, confusion, doubt.
+
+use rayon::prelude::*;
+
+use crate::geom::PointIndex;
+use crate::patch::grow::{Ground, PatchParams, contacts, image};
+use crate::patch::refine::{firmness, weigh};
+use crate::patch::symmetry::{PatchPair, Symmetry};
+use crate::sample::Sample;
+use crate::transform::{Ambient, Class, Correspondence, Isometry, MirrorFit, optimal_mirror};
+
+/// The symmetry of a grown patch, or the reason why it is none.
+pub fn judge(
+    ground: &Ground<'_>,
+    grown: Vec<PatchPair>,
+    t: Isometry,
+    class: Class,
+    height: f64,
+    params: &PatchParams,
+) -> Result<Symmetry, String> {
+    let image = match class {
+        Class::Mirror => grown.iter().map(|p| p.sample).collect(),
+        Class::Proper | Class::Improper => image(ground, &grown),
+    };
+    let area_fraction = covered(&grown, &image, ground.samples.list.len());
+    large_enough(area_fraction, class, params)?;
+    well_determined(ground, &grown, &t, class, params)?;
+    let confusion = confusion(ground, &grown);
+    if confusion > params.max_confusion {
+        return Err(format!(
+            "partners look no more alike than many other places (confusion {confusion:.2})"
+        ));
+    }
+    let mean_square = grown.iter().map(|p| p.residual.powi(2)).sum::<f64>() / grown.len() as f64;
+    let rms = mean_square.sqrt();
+    let tolerance = params.tolerance_of(class);
+    if rms / tolerance + confusion > params.max_doubt {
+        return Err(format!(
+            "its image passes by the surface rather than lies on it (rms {:.2} of the tolerance, \
+             confusion {confusion:.2})",
+            rms / tolerance
+        ));
+    }
+    let q_from_p = match class {
+        Class::Mirror => Isometry::mirror(&t.nearest_mirror(&nalgebra::Point3::origin()).canonical()),
+        Class::Proper | Class::Improper => t,
+    };
+    Ok(Symmetry {
+        id: 0,
+        class,
+        q_from_p,
+        height,
+        area_fraction,
+        rms,
+        confusion,
+        pairs: grown,
+        image,
+    })
+}
+
+/// The share of all samples that lie in a patch or in its image.
+fn covered(grown: &[PatchPair], image: &[u32], count: usize) -> f64 {
+    let mut member = vec![false; count];
+    let patch = grown.iter().map(|p| p.sample);
+    for s in patch.chain(image.iter().copied()) {
+        member[s as usize] = true;
+    }
+    member.iter().filter(|m| **m).count() as f64 / count.max(1) as f64
+}
+
+fn large_enough(area_fraction: f64, class: Class, params: &PatchParams) -> Result<(), String> {
+    let least = match class {
+        Class::Mirror => params.min_area,
+        Class::Proper | Class::Improper => params.min_copy,
+    };
+    if area_fraction < least {
+        return Err(format!(
+            "holds for {:.1} % of the surface only",
+            100.0 * area_fraction
+        ));
+    }
+    Ok(())
+}
+
+/// The conditioning of the fit: eigenvalue gap and explained share of a mirror, firmness of a motion,
+/// and that a motion does move its patch.
+fn well_determined(
+    ground: &Ground<'_>,
+    grown: &[PatchPair],
+    t: &Isometry,
+    class: Class,
+    params: &PatchParams,
+) -> Result<(), String> {
+    if class == Class::Mirror {
+        let fit = mirror_of(ground, grown).ok_or("its pairs leave the mirror undetermined")?;
+        if !fit.is_well_conditioned() {
+            return Err(format!(
+                "badly conditioned: explains {:.2} of its pairs, eigenvalue gap {:.2}",
+                fit.explained, fit.gap
+            ));
+        }
+        return Ok(());
+    }
+    let mut contacts = contacts(ground, grown);
+    weigh(t, &mut contacts);
+    let firmness = firmness(&contacts);
+    if firmness < params.min_firmness {
+        return Err(format!("slides along itself (firmness {firmness:.3})"));
+    }
+    let moved = contacts.iter().map(|c| (c.y - c.x).norm_squared()).sum::<f64>();
+    let center = contacts.iter().map(|c| c.x.coords).sum::<crate::geom::Vector>() / grown.len() as f64;
+    let size = contacts.iter().map(|c| (c.x.coords - center).norm_squared()).sum::<f64>();
+    if moved < MIN_MOTION * MIN_MOTION * size {
+        return Err("hardly moves its patch".into());
+    }
+    Ok(())
+}
+
+/// A motion moves its patch by at least this much, rms, in units of the patch's own rms radius.
+const MIN_MOTION: f64 = 0.4;
+
+/// Appendix A over a patch's pairs.
+pub fn mirror_of(ground: &Ground<'_>, pairs: &[PatchPair]) -> Option<MirrorFit> {
+    let pairs: Vec<Correspondence> = pairs
+        .iter()
+        .map(|pair| Correspondence {
+            p: ground.samples.list[pair.sample as usize].position,
+            q: ground.surface.point(&pair.partner),
+            weight: 1.0,
+        })
+        .collect();
+    optimal_mirror(&pairs, Ambient::Space)
+}
+
+/// The median, over the pairs, of the share of all samples that look more like the sample than what
+/// lies at its partner's place. Pairs across less than the widest curvature radius see the same
+/// ground from both sides and do not count.
+fn confusion(ground: &Ground<'_>, grown: &[PatchPair]) -> f64 {
+    let list = &ground.samples.list;
+    let places: Vec<[f64; 3]> = list.iter().map(|s| s.position.coords.into()).collect();
+    let index = PointIndex::new(&places);
+    let too_near = 2.0 * ground.samples.radius;
+    let mut ranks: Vec<f64> = grown
+        .par_iter()
+        .filter_map(|pair| {
+            let s = &list[pair.sample as usize];
+            let y = ground.surface.point(&pair.partner);
+            if (y - s.position).norm() < too_near {
+                return None;
+            }
+            let normal = ground.surface.normal(&pair.partner);
+            let distance = |t: &Sample| (t.position - y).norm_squared();
+            let there = index
+                .within(&y.coords.into(), 1.5 * ground.samples.spacing)
+                .into_iter()
+                .map(|j| &list[j as usize])
+                .filter(|t| t.normal.dot(&normal) > 0.5)
+                .min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+            let gap = s.signature.distance(&there.signature)?;
+            let closer = list
+                .iter()
+                .filter(|t| s.signature.distance(&t.signature).is_some_and(|d| d < gap))
+                .count();
+            Some(closer as f64 / list.len() as f64)
+        })
+        .collect();
+    median(&mut ranks).unwrap_or(1.0)
+}
+
+fn median(values: &mut [f64]) -> Option<f64> {
+    let middle = values.len() / 2;
+    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
+}

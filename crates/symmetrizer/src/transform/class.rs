@@ -1,0 +1,23 @@
+//! The three clouds of transformation space: votes of different classes are never clustered together.
+
+/// What the votes of a cloud have in common.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Class {
+    /// Reflections in a plane: three degrees of freedom.
+    Mirror,
+    /// Rotations, translations and screws: six degrees of freedom, determinant +1.
+    Proper,
+    /// Glides, rotoreflections and inversions: six degrees of freedom, determinant -1.
+    Improper,
+}
+
+impl Class {
+    /// All of them, mirrors first.
+    pub const ALL: [Self; 3] = [Self::Mirror, Self::Proper, Self::Improper];
+
+    /// Whether its members turn left hands into right hands.
+    pub fn is_improper(self) -> bool {
+        self != Self::Proper
+    }
+}
