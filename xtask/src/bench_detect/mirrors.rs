@@ -1,0 +1,315 @@
+//! Mirrors: how near the true ones are found, and what else is.
+
+use serde::Serialize;
+use serde_json::json;
+
+use super::found::{Found, Symmetry};
+use super::place::Plane;
+use super::tables::{Section, Table, Verdict, median, number, of, percent};
+use super::trial::{Trial, Trials};
+use super::truth::{Cluster, Shape, Truth};
+use super::verify::Verifier;
+
+/// A find nearer than this to a rigid mirror is it: degrees, fraction of D.
+pub const RIGID: [f64; 2] = [1.0, 0.005];
+
+/// The same for a mirror of parts that bend.
+const LOOSE: [f64; 2] = [5.0, 0.02];
+
+/// How near the nearest find comes to a true mirror.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Nearest {
+    /// Angle between the planes, degrees; none where no mirror was found at all.
+    pub angle: Option<f64>,
+    /// Distance of the truth's point from the plane found, % of D.
+    pub offset: Option<f64>,
+    /// Whether that is near enough.
+    pub recalled: bool,
+}
+
+/// What a find is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Standing {
+    /// A true mirror.
+    True,
+    /// No true mirror, but it holds.
+    Verified,
+    /// Neither.
+    False,
+}
+
+/// A find.
+#[derive(Debug, Clone, Serialize)]
+pub struct Find {
+    kind: String,
+    standing: Standing,
+    /// As reported.
+    area_fraction: f64,
+    /// rms residual, fraction of D, where it was looked at.
+    residual: Option<f64>,
+}
+
+/// What was found with one seed.
+#[derive(Debug, Serialize)]
+struct Outcome {
+    seed: u64,
+    error: Option<String>,
+    /// For each rigid mirror.
+    rigid: Vec<Nearest>,
+    /// For each of the others.
+    loose: Vec<Nearest>,
+    finds: Vec<Find>,
+}
+
+/// A shape and its outcomes.
+#[derive(Serialize)]
+struct Tried {
+    shape: String,
+    noise_in_file: f64,
+    outcomes: Vec<Outcome>,
+}
+
+/// Detection on the shapes with known mirrors, with `noise` (fraction of D) added; none where there
+/// are no such shapes.
+pub fn section(shapes: &[Shape], trials: &Trials, noise: f64) -> Option<Section> {
+    let mut tables = [rigid_head(), loose_head()];
+    let mut tried = Vec::new();
+    for shape in shapes {
+        let Truth::Mirrors {
+            clusters,
+            noise: in_file,
+        } = &shape.truth
+        else {
+            continue;
+        };
+        let (rigid, loose): (Vec<Cluster>, _) = clusters.iter().partition(|c| c.is_rigid());
+        // Finds are verified on the shape without the noise that was added.
+        let verifier = Verifier::new(shape);
+        let outcomes = trials.run(&shape.name, &shape.mesh, noise);
+        let outcomes: Vec<Outcome> = outcomes
+            .iter()
+            .map(|trial| outcome(trial, shape, [&rigid, &loose], &verifier))
+            .collect();
+        let one = Tried {
+            shape: shape.name.clone(),
+            noise_in_file: *in_file,
+            outcomes,
+        };
+        rigid_row(&mut tables[0], &one);
+        loose_rows(&mut tables[1], &one, &loose);
+        tried.push(one);
+    }
+    if tried.is_empty() {
+        return None;
+    }
+    let (title, verdicts) = if noise > 0.0 {
+        let title = format!("mirrors, {} % noise added", 100.0 * noise);
+        (title, noisy_verdicts(&tried))
+    } else {
+        ("mirrors".to_owned(), verdicts(&tried))
+    };
+    Some(Section {
+        title,
+        tables: tables.into(),
+        notes: vec![summary(&tried)],
+        verdicts,
+        figures: json!({ "noise_added": noise, "shapes": tried }),
+    })
+}
+
+fn outcome(
+    trial: &Trial,
+    shape: &Shape,
+    [rigid, loose]: [&[Cluster]; 2],
+    verifier: &Verifier<'_>,
+) -> Outcome {
+    let d = shape.diagonal;
+    let all = |truth: &[Cluster], limits| -> Vec<Nearest> {
+        let each = truth.iter().map(|c| nearest(&trial.found, c, d, limits));
+        each.collect()
+    };
+    let finds = trial.found.symmetries.iter();
+    Outcome {
+        seed: trial.seed,
+        error: trial.error.clone(),
+        rigid: all(rigid, RIGID),
+        loose: all(loose, LOOSE),
+        finds: finds
+            .map(|s| find(s, d, [rigid, loose], verifier))
+            .collect(),
+    }
+}
+
+/// How near the finds come to a true mirror: the nearest one counted in units of the limits.
+pub fn nearest(found: &Found, truth: &Cluster, d: f64, limits: [f64; 2]) -> Nearest {
+    let errors = found.planes().map(|plane| errors(plane, truth, d));
+    let far = |[angle, offset]: &[f64; 2]| angle / limits[0] + offset / limits[1];
+    let best = errors.min_by(|a, b| far(a).total_cmp(&far(b)));
+    Nearest {
+        angle: best.map(|e| e[0]),
+        offset: best.map(|e| 100.0 * e[1]),
+        recalled: best.is_some_and(|e| within(e, limits)),
+    }
+}
+
+/// What a find is, where `rigid` and other mirrors are true.
+pub fn find(
+    symmetry: &Symmetry,
+    d: f64,
+    [rigid, loose]: [&[Cluster]; 2],
+    verifier: &Verifier<'_>,
+) -> Find {
+    let near = |truth: &[Cluster], limits: [f64; 2]| {
+        let plane = symmetry.plane.as_ref();
+        plane.is_some_and(|p| truth.iter().any(|c| within(errors(p, c, d), limits)))
+    };
+    let is_true = near(rigid, RIGID) || near(loose, LOOSE);
+    let check = match is_true {
+        true => None,
+        false => verifier.check(symmetry),
+    };
+    let standing = match check {
+        _ if is_true => Standing::True,
+        Some(check) if check.holds() => Standing::Verified,
+        _ => Standing::False,
+    };
+    Find {
+        kind: symmetry.kind.clone(),
+        standing,
+        area_fraction: symmetry.area_fraction,
+        residual: check.map(|c| c.residual),
+    }
+}
+
+/// Angle in degrees and offset over D between a plane and a true mirror.
+fn errors(plane: &Plane, truth: &Cluster, d: f64) -> [f64; 2] {
+    [plane.angle(&truth.plane), plane.distance(&truth.point) / d]
+}
+
+fn within(errors: [f64; 2], limits: [f64; 2]) -> bool {
+    errors[0] <= limits[0] && errors[1] <= limits[1]
+}
+
+/// The number of finds of a standing.
+pub fn count<'a>(finds: impl IntoIterator<Item = &'a Find>, standing: Standing) -> usize {
+    let same = |f: &&Find| f.standing == standing;
+    finds.into_iter().filter(same).count()
+}
+
+impl Tried {
+    fn rigid(&self) -> impl Iterator<Item = &Nearest> {
+        self.outcomes.iter().flat_map(|o| &o.rigid)
+    }
+
+    fn finds(&self) -> impl Iterator<Item = &Find> {
+        self.outcomes.iter().flat_map(|o| &o.finds)
+    }
+}
+
+fn rigid_head() -> Table {
+    Table::new([
+        "shape", "planes", "recalled", "angle", "offset %", "finds", "true", "verified", "false",
+    ])
+}
+
+fn rigid_row(table: &mut Table, tried: &Tried) {
+    let planes = tried.rigid().count();
+    table.row([
+        tried.shape.clone(),
+        (planes / tried.outcomes.len().max(1)).to_string(),
+        of(tried.rigid().filter(|n| n.recalled).count(), planes),
+        number(median(tried.rigid().map(|n| n.angle)), 3),
+        number(median(tried.rigid().map(|n| n.offset)), 3),
+        tried.finds().count().to_string(),
+        count(tried.finds(), Standing::True).to_string(),
+        count(tried.finds(), Standing::Verified).to_string(),
+        count(tried.finds(), Standing::False).to_string(),
+    ]);
+}
+
+fn loose_head() -> Table {
+    Table::new([
+        "not scored: bending or small parts",
+        "vertices",
+        "rms %",
+        "found",
+        "angle",
+        "offset %",
+    ])
+}
+
+fn loose_rows(table: &mut Table, tried: &Tried, clusters: &[Cluster]) {
+    for (k, cluster) in clusters.iter().enumerate() {
+        let of_cluster = || tried.outcomes.iter().filter_map(|o| o.loose.get(k));
+        table.row([
+            tried.shape.clone(),
+            number(Some(cluster.fraction), 2),
+            number(Some(100.0 * cluster.rms), 2),
+            of(
+                of_cluster().filter(|n| n.recalled).count(),
+                tried.outcomes.len(),
+            ),
+            number(median(of_cluster().map(|n| n.angle)), 2),
+            number(median(of_cluster().map(|n| n.offset)), 2),
+        ]);
+    }
+}
+
+/// Recall in percent at the rigid mirrors.
+fn recall(tried: &[Tried]) -> Option<f64> {
+    let all = || tried.iter().flat_map(Tried::rigid);
+    percent(all().filter(|n| n.recalled).count(), all().count())
+}
+
+fn summary(tried: &[Tried]) -> String {
+    let finds = || tried.iter().flat_map(Tried::finds);
+    let [is_true, verified, wrong] =
+        [Standing::True, Standing::Verified, Standing::False].map(|s| count(finds(), s));
+    let errors = tried.iter().flat_map(|t| &t.outcomes);
+    let errors = errors.filter(|o| o.error.is_some()).count();
+    format!(
+        "finds {}: true {is_true}, verified extras {verified}, neither {wrong}; errors {errors}",
+        finds().count()
+    )
+}
+
+fn verdicts(tried: &[Tried]) -> Vec<Verdict> {
+    let with = |noisy: bool| {
+        let fits = move |t: &&Tried| (t.noise_in_file > 0.0) == noisy;
+        tried.iter().filter(fits).flat_map(Tried::rigid)
+    };
+    let finds = || tried.iter().flat_map(Tried::finds);
+    let good = finds().filter(|f| f.standing != Standing::False).count();
+    let mut verdicts = Vec::new();
+    if with(false).next().is_some() {
+        let (angle, offset) = (
+            median(with(false).map(|n| n.angle)),
+            median(with(false).map(|n| n.offset)),
+        );
+        verdicts.push(Verdict::at_most("median angle", angle, 0.2, " degrees"));
+        verdicts.push(Verdict::at_most("median offset", offset, 0.1, " % of D"));
+    }
+    if with(true).next().is_some() {
+        let angle = median(with(true).map(|n| n.angle));
+        verdicts.push(Verdict::at_most(
+            "median angle, 0.2 % noise in the file",
+            angle,
+            0.5,
+            " degrees",
+        ));
+    }
+    if let Some(recall) = recall(tried) {
+        verdicts.push(Verdict::at_least("recall", Some(recall), 95.0, " %"));
+    }
+    let precision = percent(good, finds().count());
+    verdicts.push(Verdict::at_least("precision", precision, 95.0, " %"));
+    verdicts
+}
+
+fn noisy_verdicts(tried: &[Tried]) -> Vec<Verdict> {
+    let recall = recall(tried).into_iter();
+    recall
+        .map(|r| Verdict::at_least("recall", Some(r), 80.0, " %"))
+        .collect()
+}
