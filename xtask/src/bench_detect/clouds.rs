@@ -104,7 +104,10 @@ pub fn section(clouds: &[Cloud], trials: &Trials) -> Option<Section> {
     }
     let overall = means(outcomes.iter())?;
     let errors: Vec<&String> = outcomes.iter().filter_map(|o| o.error.as_ref()).collect();
-    let mut notes = vec![format!("errors {} of {}", errors.len(), outcomes.len())];
+    let mut notes = vec![
+        "5/2: within 5 degrees and 2 % of D; 1/1: within 1 degree and 1 %".to_owned(),
+        format!("errors {} of {}", errors.len(), outcomes.len()),
+    ];
     notes.extend(errors.first().map(|e| format!("the first: {e}")));
     Some(Section {
         title: "point clouds".into(),

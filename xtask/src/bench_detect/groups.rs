@@ -200,7 +200,7 @@ impl Answer {
                 let [angle, offset] = errors(axis);
                 [format!("axis {}", yes(axis.is_some())), angle, offset]
             }
-            Self::Row { rows, step } => [format!("{rows} row"), "-".into(), number(*step, 3)],
+            Self::Row { rows, step } => [format!("rows: {rows}"), "-".into(), number(*step, 3)],
             Self::Planes { planes, group, .. } => [
                 format!(
                     "{} planes, group {}",

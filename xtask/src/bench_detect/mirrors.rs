@@ -73,7 +73,8 @@ struct Tried {
 /// Detection on the shapes with known mirrors, with `noise` (fraction of D) added; none where there
 /// are no such shapes.
 pub fn section(shapes: &[Shape], trials: &Trials, noise: f64) -> Option<Section> {
-    let mut tables = [rigid_head(), loose_head()];
+    let [mut rigid_table, mut loose_table, mut false_table] =
+        [rigid_head(), loose_head(), false_head()];
     let mut tried = Vec::new();
     for shape in shapes {
         let Truth::Mirrors {
@@ -96,22 +97,25 @@ pub fn section(shapes: &[Shape], trials: &Trials, noise: f64) -> Option<Section>
             noise_in_file: *in_file,
             outcomes,
         };
-        rigid_row(&mut tables[0], &one);
-        loose_rows(&mut tables[1], &one, &loose);
+        rigid_row(&mut rigid_table, &one);
+        loose_rows(&mut loose_table, &one, &loose);
+        false_rows(&mut false_table, &one);
         tried.push(one);
     }
     if tried.is_empty() {
         return None;
     }
-    let (title, verdicts) = if noise > 0.0 {
+    let (title, tables, verdicts) = if noise > 0.0 {
         let title = format!("mirrors, {} % noise added", 100.0 * noise);
-        (title, noisy_verdicts(&tried))
+        let tables = vec![rigid_table, false_table];
+        (title, tables, noisy_verdicts(&tried))
     } else {
-        ("mirrors".to_owned(), verdicts(&tried))
+        let tables = vec![rigid_table, loose_table, false_table];
+        ("mirrors".to_owned(), tables, verdicts(&tried))
     };
     Some(Section {
         title,
-        tables: tables.into(),
+        tables,
         notes: vec![summary(&tried)],
         verdicts,
         figures: json!({ "noise_added": noise, "shapes": tried }),
@@ -253,6 +257,34 @@ fn loose_rows(table: &mut Table, tried: &Tried, clusters: &[Cluster]) {
             number(median(of_cluster().map(|n| n.angle)), 2),
             number(median(of_cluster().map(|n| n.offset)), 2),
         ]);
+    }
+}
+
+fn false_head() -> Table {
+    Table::new([
+        "neither true nor verified",
+        "seed",
+        "kind",
+        "area %",
+        "residual %",
+    ])
+}
+
+fn false_rows(table: &mut Table, tried: &Tried) {
+    for outcome in &tried.outcomes {
+        let wrong = outcome
+            .finds
+            .iter()
+            .filter(|f| f.standing == Standing::False);
+        for find in wrong {
+            table.row([
+                tried.shape.clone(),
+                outcome.seed.to_string(),
+                find.kind.clone(),
+                number(Some(100.0 * find.area_fraction), 1),
+                number(find.residual.map(|r| 100.0 * r), 2),
+            ]);
+        }
     }
 }
 

@@ -24,7 +24,7 @@ use serde_json::{Value, json};
 use symmetrizer::{Error, Params, Result};
 
 use crate::{Answer, data, terminal};
-use tables::{Section, Table, Verdict};
+use tables::Section;
 use trial::Trials;
 
 /// Measure detection on shapes with known symmetries
@@ -66,7 +66,7 @@ pub fn run(args: &Args) -> Result<Answer> {
     let params = params(&args.set)?;
     let root = data::root()?;
     let sections = match args.time {
-        true => vec![time::section(&root.join("3d/bunny.obj"), &params)?],
+        true => times(&root, &params)?,
         false => quality(&root.join("truth"), args, params)?,
     };
     if let Some(path) = &args.json {
@@ -78,6 +78,13 @@ pub fn run(args: &Args) -> Result<Answer> {
         true => Answer::Missed,
         false => Answer::Done,
     })
+}
+
+/// The section on time, printed.
+fn times(root: &Path, params: &Params) -> Result<Vec<Section>> {
+    let section = time::section(&root.join("3d/bunny.obj"), params)?;
+    terminal::answer(&section.to_string());
+    Ok(vec![section])
 }
 
 /// All sections for which there are shapes, printed as they are done.
@@ -112,26 +119,16 @@ fn quality(folder: &Path, args: &Args, params: Params) -> Result<Vec<Section>> {
     Ok(sections)
 }
 
-/// All verdicts in one table.
+/// All verdicts in one list.
 fn goals(sections: &[Section]) -> String {
-    let mut table = Table::new(["section", "goal", "reached", ""]);
-    let mut met = 0;
-    let mut all = 0;
-    for section in sections {
-        for Verdict {
-            goal,
-            reached,
-            met: is,
-        } in &section.verdicts
-        {
-            let word = if *is { "met" } else { "MISSED" };
-            let title = section.title.clone();
-            table.row([title, goal.clone(), reached.clone(), word.into()]);
-            met += usize::from(*is);
-            all += 1;
-        }
-    }
-    format!("== goals: {met} of {all} met\n{table}")
+    let with_title = |s: &'_ Section| -> Vec<String> {
+        let lines = s.verdicts.iter().map(|v| format!("  {v}  [{}]", s.title));
+        lines.collect()
+    };
+    let lines: Vec<String> = sections.iter().flat_map(with_title).collect();
+    let met = sections.iter().flat_map(|s| &s.verdicts).filter(|v| v.met);
+    let head = format!("== goals: {} of {} met", met.count(), lines.len());
+    format!("{head}\n{}", lines.join("\n"))
 }
 
 fn write(path: &Path, sections: &[Section]) -> Result<()> {

@@ -69,7 +69,8 @@ impl Scores {
                 precisions.push(f64::from(hits) / f64::from(visited));
             }
         }
-        let sum: f64 = precisions.iter().sum();
+        // Not `sum`, which makes -0 of nothing.
+        let sum = precisions.iter().fold(0.0, |sum, p| sum + p);
         Self {
             map: sum / precisions.len().max(1) as f64,
             map_recall: sum / truth.len().max(1) as f64,

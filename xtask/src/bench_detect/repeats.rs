@@ -35,7 +35,9 @@ struct PairOutcome {
 #[derive(Serialize)]
 struct Outcome {
     seed: u64,
-    trouble: Option<String>,
+    error: Option<String>,
+    /// Finds of any kind.
+    finds: usize,
     pairs: Vec<PairOutcome>,
     /// For each element the worst overlap in the pairs found; none where it is in none.
     by_pairs: Vec<Option<f64>>,
@@ -55,6 +57,7 @@ pub fn section(shapes: &[Shape], trials: &Trials) -> Option<Section> {
     let mut table = Table::new([
         "shape",
         "seed",
+        "finds",
         "pairs",
         "worst error %",
         "right kind",
@@ -97,7 +100,8 @@ fn outcome(shape: &Shape, truth: &Repeats, trial: &Trial) -> Outcome {
     let count = truth.face_element.iter().max().map_or(0, |m| m + 1);
     Outcome {
         seed: trial.seed,
-        trouble: trial.error.clone(),
+        error: trial.error.clone(),
+        finds: trial.found.symmetries.len(),
         by_pairs: (0..count).map(|e| in_pairs(&pairs, e)).collect(),
         by_orbits: (0..count)
             .map(|e| in_orbits(truth, &trial.found, e))
@@ -207,6 +211,7 @@ fn row(table: &mut Table, shape: &str, outcome: &Outcome) {
     table.row([
         shape.to_owned(),
         outcome.seed.to_string(),
+        outcome.finds.to_string(),
         of(outcome.found(), pairs.len()),
         number(worst(pairs.iter().map(|p| p.error)), 2),
         of(right.count(), outcome.found()),

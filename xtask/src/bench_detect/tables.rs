@@ -98,6 +98,13 @@ impl fmt::Display for Table {
     }
 }
 
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let word = if self.met { "met   " } else { "MISSED" };
+        write!(f, "{word}  {}: {}", self.goal, self.reached)
+    }
+}
+
 impl fmt::Display for Section {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "== {}", self.title)?;
@@ -108,8 +115,7 @@ impl fmt::Display for Section {
             writeln!(f, "  {note}")?;
         }
         for v in &self.verdicts {
-            let word = if v.met { "met   " } else { "MISSED" };
-            writeln!(f, "  {word}  {}: {}", v.goal, v.reached)?;
+            writeln!(f, "  {v}")?;
         }
         Ok(())
     }

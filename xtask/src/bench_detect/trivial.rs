@@ -6,13 +6,13 @@ use symmetrizer::geom::{Matrix3, Point, Vector, sorted_eigen};
 use super::place::normal_deviate;
 use super::planes::Guess;
 
-/// The planes through the centroid across the principal axes of the points, the longest axis first,
-/// all alike sure.
+/// The planes through the centroid across the principal axes of the points, all alike sure. The
+/// shortest axis comes first: of all orders that one scores best on the clouds.
 pub fn principal(points: &[Point]) -> Vec<Guess> {
     let centroid = centroid(points);
     let spread = |p: &Point| (p - centroid) * (p - centroid).transpose();
     let (_, axes) = sorted_eigen(&points.iter().map(spread).sum::<Matrix3>());
-    let planes = [2, 1, 0].map(|k| Guess {
+    let planes = [0, 1, 2].map(|k| Guess {
         normal: axes.column(k).into(),
         point: centroid,
         confidence: 1.0,
