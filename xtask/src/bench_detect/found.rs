@@ -187,3 +187,68 @@ fn axis(axis: Option<[f64; 3]>, point: Option<[f64; 3]>, place: &Placement) -> O
         point: place.point_back(Point::from(point?)),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use symmetrizer::Mesh;
+    use symmetrizer::geom::exp_rotation;
+
+    use super::*;
+
+    /// A report as it is written about a shape that was placed: a rotation, its group, a revolution.
+    #[test]
+    fn a_report_is_brought_back_to_the_file() {
+        let truth = Axis {
+            direction: Vector::new(2.0, -1.0, 2.0) / 3.0,
+            point: Point::new(0.5, 0.1, -0.4),
+        };
+        let place = Placement::random("shape", 1, 2.0);
+        let x = Point::new(-0.2, 0.9, 0.3);
+        let ends = vec![truth.point, truth.point + truth.direction, x];
+        let placed = place
+            .mesh(&Mesh::from_triangles(ends, Vec::new()))
+            .positions;
+        let along = placed[1] - placed[0];
+        let [axis, point]: [[f64; 3]; 2] = [along.normalize().into(), placed[0].coords.into()];
+        let angle = 72_f64.to_radians();
+        let turn = exp_rotation(&(along.normalize() * angle));
+        let shift = placed[0].coords - turn * placed[0].coords;
+        let row = |r: usize| [turn[(r, 0)], turn[(r, 1)], turn[(r, 2)], shift[r]];
+        let matrix = [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]];
+        let report = serde_json::json!({ "input": {
+            "symmetries": [{
+                "id": 0, "kind": "rotation", "matrix": matrix, "axis": axis, "point": point,
+                "angle_deg": 72.0, "order": 5, "rms": 0.001, "area_fraction": 0.9,
+                "patch_faces": [0, 1], "image_faces": [2],
+            }],
+            "groups": [{
+                "name": "C5", "order": 5, "axis": axis, "point": point, "step": along.as_slice(),
+                "symmetries": [0], "orbit": [[0, 1], [2]],
+            }],
+            "continuous": [{ "kind": "revolution", "axis": axis, "point": point }],
+        }});
+        let found = Found::read(&report, &place).unwrap();
+        assert_eq!(found.kinds(), "1 rotation, 1 group C5, 1 revolution");
+        let axes = [
+            found.symmetries[0].axis,
+            found.groups[0].axis,
+            found.continuous[0].axis,
+        ];
+        for axis in axes.map(Option::unwrap) {
+            assert!(axis.angle(&truth) < 1e-6 && axis.distance(&truth.point) < 1e-9);
+        }
+        assert!((found.groups[0].step.unwrap() - truth.direction).norm() < 1e-9);
+        assert_eq!(found.groups[0].orbit, [vec![0, 1], vec![2]]);
+        let wanted = truth.point + exp_rotation(&(truth.direction * angle)) * (x - truth.point);
+        assert!((found.symmetries[0].motion.apply(&x) - wanted).norm() < 1e-9);
+        assert_eq!(found.symmetries[0].order, Some(5));
+    }
+
+    #[test]
+    fn a_report_of_another_form_is_an_error() {
+        let place = Placement::random("shape", 1, 2.0);
+        let report = serde_json::json!({ "input": { "symmetries": [{ "kind": "mirror" }] } });
+        assert!(Found::read(&report, &place).unwrap_err().contains("matrix"));
+        assert!(Found::read(&serde_json::json!({}), &place).is_err());
+    }
+}

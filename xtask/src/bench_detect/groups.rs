@@ -1,27 +1,18 @@
 //! Shapes that are symmetric in more than one mirror: an axis, a row, three planes, a turned vase.
 
 use serde::Serialize;
+use symmetrizer::geom::Vector;
 
+use super::compare::{self, AxisError, Find, Nearest, RIGID, Standing, best_axis};
 use super::found::Found;
-use super::mirrors::{self, Find, Nearest, RIGID, Standing};
 use super::place::Axis;
 use super::tables::{Section, Table, Verdict, number, of, worst};
 use super::trial::{Trial, Trials};
 use super::truth::{Cluster, Shape, Truth};
 use super::verify::Verifier;
-use symmetrizer::geom::Vector;
 
 /// The group of three planes at right angles.
 const THREE_PLANES: &str = "D2h";
-
-/// How near an axis comes to the true one.
-#[derive(Debug, Clone, Copy, Serialize)]
-struct AxisError {
-    /// Degrees.
-    angle: f64,
-    /// Distance of the truth's point from the axis, % of D.
-    offset: f64,
-}
 
 /// What was found with one seed.
 #[derive(Serialize)]
@@ -148,14 +139,6 @@ fn cyclic_order(name: &str) -> Option<u32> {
     rest.trim_end_matches(['v', 'h']).parse().ok()
 }
 
-fn best_axis(axes: impl Iterator<Item = Axis>, truth: &Axis, d: f64) -> Option<AxisError> {
-    let errors = axes.map(|axis| AxisError {
-        angle: axis.angle(truth),
-        offset: 100.0 * axis.distance(&truth.point) / d,
-    });
-    errors.min_by(|a, b| a.angle.total_cmp(&b.angle))
-}
-
 /// The rows of `count`, and how near the best one's step comes, either way round.
 fn row_of(found: &Found, truth: &Vector, count: u32, d: f64) -> Answer {
     let name = format!("row {count}");
@@ -169,13 +152,13 @@ fn row_of(found: &Found, truth: &Vector, count: u32, d: f64) -> Answer {
 }
 
 fn planes_of(found: &Found, planes: &[Cluster], d: f64, verifier: &Verifier<'_>) -> Answer {
-    let nearest = planes.iter().map(|p| mirrors::nearest(found, p, d, RIGID));
+    let nearest = planes.iter().map(|p| compare::nearest(found, p, d, RIGID));
     let finds = found.symmetries.iter();
     Answer::Planes {
         planes: nearest.collect(),
         group: found.groups.iter().any(|g| g.name == THREE_PLANES),
         finds: finds
-            .map(|s| mirrors::find(s, d, [planes, &[]], verifier))
+            .map(|s| compare::find(s, d, [planes, &[]], verifier))
             .collect(),
     }
 }
@@ -277,7 +260,7 @@ fn verdicts_on(shape: &Shape, outcomes: &[Outcome]) -> Vec<Verdict> {
         _ => None,
     });
     let wrong = finds
-        .map(|f| mirrors::count(f, Standing::False))
+        .map(|f| compare::count(f, Standing::False))
         .sum::<usize>();
     if matches!(shape.truth, Truth::Planes(_)) {
         verdicts.push(Verdict::new(

@@ -3,52 +3,11 @@
 use serde::Serialize;
 use serde_json::json;
 
-use super::found::{Found, Symmetry};
-use super::place::Plane;
+use super::compare::{Find, LOOSE, Nearest, RIGID, Standing, count, find, nearest};
 use super::tables::{Section, Table, Verdict, median, number, of, percent};
 use super::trial::{Trial, Trials};
 use super::truth::{Cluster, Shape, Truth};
 use super::verify::Verifier;
-
-/// A find nearer than this to a rigid mirror is it: degrees, fraction of D.
-pub const RIGID: [f64; 2] = [1.0, 0.005];
-
-/// The same for a mirror of parts that bend.
-const LOOSE: [f64; 2] = [5.0, 0.02];
-
-/// How near the nearest find comes to a true mirror.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub struct Nearest {
-    /// Angle between the planes, degrees; none where no mirror was found at all.
-    pub angle: Option<f64>,
-    /// Distance of the truth's point from the plane found, % of D.
-    pub offset: Option<f64>,
-    /// Whether that is near enough.
-    pub recalled: bool,
-}
-
-/// What a find is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Standing {
-    /// A true mirror.
-    True,
-    /// No true mirror, but it holds.
-    Verified,
-    /// Neither.
-    False,
-}
-
-/// A find.
-#[derive(Debug, Clone, Serialize)]
-pub struct Find {
-    kind: String,
-    standing: Standing,
-    /// As reported.
-    area_fraction: f64,
-    /// rms residual, fraction of D, where it was looked at.
-    residual: Option<f64>,
-}
 
 /// What was found with one seed.
 #[derive(Debug, Serialize)]
@@ -143,62 +102,6 @@ fn outcome(
             .map(|s| find(s, d, [rigid, loose], verifier))
             .collect(),
     }
-}
-
-/// How near the finds come to a true mirror: the nearest one counted in units of the limits.
-pub fn nearest(found: &Found, truth: &Cluster, d: f64, limits: [f64; 2]) -> Nearest {
-    let errors = found.planes().map(|plane| errors(plane, truth, d));
-    let far = |[angle, offset]: &[f64; 2]| angle / limits[0] + offset / limits[1];
-    let best = errors.min_by(|a, b| far(a).total_cmp(&far(b)));
-    Nearest {
-        angle: best.map(|e| e[0]),
-        offset: best.map(|e| 100.0 * e[1]),
-        recalled: best.is_some_and(|e| within(e, limits)),
-    }
-}
-
-/// What a find is, where `rigid` and other mirrors are true.
-pub fn find(
-    symmetry: &Symmetry,
-    d: f64,
-    [rigid, loose]: [&[Cluster]; 2],
-    verifier: &Verifier<'_>,
-) -> Find {
-    let near = |truth: &[Cluster], limits: [f64; 2]| {
-        let plane = symmetry.plane.as_ref();
-        plane.is_some_and(|p| truth.iter().any(|c| within(errors(p, c, d), limits)))
-    };
-    let is_true = near(rigid, RIGID) || near(loose, LOOSE);
-    let check = match is_true {
-        true => None,
-        false => verifier.check(symmetry),
-    };
-    let standing = match check {
-        _ if is_true => Standing::True,
-        Some(check) if check.holds() => Standing::Verified,
-        _ => Standing::False,
-    };
-    Find {
-        kind: symmetry.kind.clone(),
-        standing,
-        area_fraction: symmetry.area_fraction,
-        residual: check.map(|c| c.residual),
-    }
-}
-
-/// Angle in degrees and offset over D between a plane and a true mirror.
-fn errors(plane: &Plane, truth: &Cluster, d: f64) -> [f64; 2] {
-    [plane.angle(&truth.plane), plane.distance(&truth.point) / d]
-}
-
-fn within(errors: [f64; 2], limits: [f64; 2]) -> bool {
-    errors[0] <= limits[0] && errors[1] <= limits[1]
-}
-
-/// The number of finds of a standing.
-pub fn count<'a>(finds: impl IntoIterator<Item = &'a Find>, standing: Standing) -> usize {
-    let same = |f: &&Find| f.standing == standing;
-    finds.into_iter().filter(same).count()
 }
 
 impl Tried {

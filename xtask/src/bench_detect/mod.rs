@@ -4,7 +4,9 @@
 //! is found is brought back to the coordinates of the file and compared with the truth.
 
 mod clouds;
+mod compare;
 mod control;
+mod copies;
 mod found;
 mod groups;
 mod mirrors;
@@ -16,6 +18,7 @@ mod time;
 mod trial;
 mod trivial;
 mod truth;
+mod truth_file;
 mod verify;
 
 use std::path::{Path, PathBuf};

@@ -31,9 +31,11 @@ const SETTINGS: [(&str, &[(&str, &str)]); 3] = [
 pub fn section(path: &Path, params: &Params) -> Result<Section> {
     let mesh = io::read(path)?.mesh;
     let mut classes = Table::new(["bunny", "triangles", "seconds"]);
+    let mut by_class = Vec::new();
     for (name, settings) in SETTINGS {
         let seconds = set(params, settings).map(|p| time(&mesh, &p)).transpose()?;
         let cell = seconds.map_or_else(|| "no such parameter".into(), |s| number(Some(s), 3));
+        by_class.push(json!({ "looked_for": name, "seconds": seconds }));
         classes.row([name.into(), mesh.triangles().count().to_string(), cell]);
     }
     let (growth, figures) = growth(mesh, params)?;
@@ -42,7 +44,7 @@ pub fn section(path: &Path, params: &Params) -> Result<Section> {
         tables: vec![classes, growth],
         notes: Vec::new(),
         verdicts: Vec::new(),
-        figures: figures.into(),
+        figures: json!({ "classes": by_class, "growth": figures }),
     })
 }
 
