@@ -2,10 +2,12 @@
 
 pub mod displacement;
 pub mod isometry;
+pub mod kind;
 pub mod optimal;
 pub mod space;
 
 pub use displacement::displacements;
 pub use isometry::{Isometry, Plane};
+pub use kind::{Elements, Kind, same_symmetry};
 pub use optimal::{Ambient, Correspondence, MirrorFit, optimal_mirror};
 pub use space::TransformSpace;
