@@ -122,6 +122,14 @@ impl Elements {
         }
     }
 
+    /// The elements of `t`, an isometry of `kind` up to rounding, without an order.
+    pub fn exactly(kind: Kind, t: &Isometry, space: &TransformSpace) -> Self {
+        Self {
+            order: None,
+            ..Self::read(kind, t, space, 0.0)
+        }
+    }
+
     /// The isometry that has these elements.
     pub fn isometry(&self) -> Isometry {
         let axis = self.axis.unwrap_or_else(Vector::zeros);
