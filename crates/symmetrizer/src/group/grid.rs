@@ -81,6 +81,9 @@ impl Pattern {
     }
 }
 
+/// Steps along both directions, and the isometry that takes them on the shape.
+type Placed = (usize, usize, Isometry);
+
 /// The least sine between the directions of a grid, about 6 degrees.
 const LEAST_SINE: f64 = 0.1;
 
@@ -93,25 +96,7 @@ fn grid(a: &Row, b: &Row, within: Within<'_>, verify: &mut Verify<'_>) -> Option
     if !straight || s.cross(&t).norm() < LEAST_SINE * s.norm() * t.norm() {
         return None;
     }
-    let mut held: Vec<(usize, usize, Isometry)> = Vec::new();
-    let mut best = [1, 1];
-    let mut width = a.count;
-    for j in 1..b.count {
-        for i in 1..width {
-            let product = shifted(s * i as f64 + t * j as f64);
-            match within.ask(&product, verify) {
-                Some(holds) => held.push((i, j, holds)),
-                None => width = i,
-            }
-            if width <= i {
-                break;
-            }
-        }
-        if width * (j + 1) > best[0] * best[1] {
-            best = [width, j + 1];
-        }
-    }
-    let [n, m] = best;
+    let (mut held, [n, m]) = block([a, b], within, verify);
     if n < 2 || m < 2 {
         return None;
     }
@@ -121,12 +106,40 @@ fn grid(a: &Row, b: &Row, within: Within<'_>, verify: &mut Verify<'_>) -> Option
     held.extend((1..).zip(along(b, m)).map(|(j, t)| (0, j, t)));
     Some(Grid {
         steps: steps(&held, within)?.map(shifted),
-        counts: best,
+        counts: [n, m],
     })
 }
 
+/// The products i s + j t, i and j from 1, that hold, and the counts of the largest full block.
+fn block(
+    [a, b]: [&Row; 2],
+    within: Within<'_>,
+    verify: &mut Verify<'_>,
+) -> (Vec<Placed>, [usize; 2]) {
+    let (s, t) = (a.step.translation, b.step.translation);
+    let mut held = Vec::new();
+    let mut best = [1, 1];
+    let mut width = a.count;
+    for j in 1..b.count {
+        let mut reached = 1;
+        while reached < width {
+            let product = shifted(s * reached as f64 + t * j as f64);
+            let Some(holds) = within.ask(&product, verify) else {
+                break;
+            };
+            held.push((reached, j, holds));
+            reached += 1;
+        }
+        width = reached;
+        if width * (j + 1) > best[0] * best[1] {
+            best = [width, j + 1];
+        }
+    }
+    (held, best)
+}
+
 /// The two translations s, t that minimise the sum of |i s + j t - M_ij|^2 in the space.
-fn steps(held: &[(usize, usize, Isometry)], within: Within<'_>) -> Option<[Vector; 2]> {
+fn steps(held: &[Placed], within: Within<'_>) -> Option<[Vector; 2]> {
     let centre = within.space.centre();
     let mut a = Matrix2::zeros();
     let mut b = Matrix2x3::zeros();

@@ -53,45 +53,49 @@ impl Elements {
                 point: centre + moved / 2.0,
                 ..still
             },
-            Kind::Mirror | Kind::Glide => {
-                let axis = turn_of(&-t.linear).0;
-                let out = axis * axis.dot(&moved);
-                Self {
-                    axis: Some(axis),
-                    point: centre + out / 2.0,
-                    shift: moved - out,
-                    ..still
-                }
-                .without_rest()
-            }
+            Kind::Mirror | Kind::Glide => still.across(&t.linear, &moved),
             Kind::Rotation | Kind::Screw => {
-                let (axis, angle) = turn_of(&t.linear);
-                let along = axis * axis.dot(&moved);
-                let foot = fixed_across(&axis, angle, &(moved - along));
-                Self {
-                    axis: Some(axis),
-                    point: centre + foot,
-                    angle,
-                    shift: along,
-                    ..still
-                }
-                .without_rest()
-                .ordered(space, tolerance)
+                let turn = turn_of(&t.linear);
+                still.about(turn, &moved).ordered(space, tolerance)
             }
             Kind::Rotoreflection => {
                 let (axis, half_more) = turn_of(&-t.linear);
-                let angle = wrapped(half_more + std::f64::consts::PI);
-                let along = axis * axis.dot(&moved);
-                let foot = fixed_across(&axis, angle, &(moved - along));
+                let turn = (axis, wrapped(half_more + std::f64::consts::PI));
+                let screwed = still.about(turn, &moved);
                 Self {
-                    axis: Some(axis),
-                    point: centre + foot + along / 2.0,
-                    angle,
-                    ..still
+                    point: screwed.point + screwed.shift / 2.0,
+                    shift: Vector::zeros(),
+                    ..screwed
                 }
                 .ordered(space, tolerance)
             }
         }
+    }
+
+    /// With the plane of the reflection `linear` that moves `point` by `moved`.
+    fn across(self, linear: &Matrix3, moved: &Vector) -> Self {
+        let axis = turn_of(&-linear).0;
+        let out = axis * axis.dot(moved);
+        Self {
+            axis: Some(axis),
+            point: self.point + out / 2.0,
+            shift: moved - out,
+            ..self
+        }
+        .without_rest()
+    }
+
+    /// With the axis and angle that, and the shift along the axis, move `point` by `moved`.
+    fn about(self, (axis, angle): (Vector, f64), moved: &Vector) -> Self {
+        let along = axis * axis.dot(moved);
+        Self {
+            axis: Some(axis),
+            point: self.point + fixed_across(&axis, angle, &(moved - along)),
+            angle,
+            shift: along,
+            ..self
+        }
+        .without_rest()
     }
 
     /// Kinds without a shift of their own have none, not even that of rounding.
