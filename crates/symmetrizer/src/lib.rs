@@ -10,6 +10,7 @@ pub mod deform;
 pub mod detect;
 pub mod error;
 pub mod geom;
+pub mod group;
 pub mod job;
 pub mod optimize;
 pub mod pair;

@@ -39,6 +39,11 @@ const HOUSE: &[Floor] = &[
     floor(30, "pair"),
     floor(40, "cluster"),
     floor(50, "patch"),
+    Floor {
+        module: "group",
+        floor: 52,
+        only: Some(&["geom", "transform"]),
+    },
     floor(55, "detect"),
     floor(60, "optimize"),
     floor(70, "apply"),

@@ -43,6 +43,33 @@ impl TransformSpace {
         }
     }
 
+    /// The centroid of the support.
+    pub fn centre(&self) -> Point {
+        Point::from(self.mu)
+    }
+
+    /// The rms distance of the support from its centroid.
+    pub fn radius(&self) -> f64 {
+        self.root_c.norm()
+    }
+
+    /// The rms distance of the support from the line through `point` along the unit vector `axis`.
+    pub fn radius_about(&self, point: &Point, axis: &Vector) -> f64 {
+        let across = Matrix3::identity() - axis * axis.transpose();
+        let away = (across * (self.mu - point.coords)).norm_squared();
+        ((across * self.root_c).norm_squared() + away).sqrt()
+    }
+
+    /// Six points of equal weight with the centroid and the covariance of the support: sums of
+    /// squared displacements over them are those over the support.
+    pub fn probes(&self) -> [Point; 6] {
+        std::array::from_fn(|i| {
+            let step = self.root_c.column(i / 2) * 3.0_f64.sqrt();
+            let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
+            Point::from(self.mu + step * sign)
+        })
+    }
+
     /// phi(T).
     pub fn embed(&self, t: &Isometry) -> Phi {
         let turned = t.linear * self.root_c;

@@ -1,34 +1,13 @@
-//! Appendix A in closed form: the mirror that makes a set of pairs symmetric with the smallest
-//! displacements.
+//! The mirror of appendix A.
 //!
-//! p, q: pairs; w: weights, W their sum; c: weighted mean of the midpoints; s = (p + q)/2 - c;
-//! del = p - q; M = 2 sum w s s^T - 1/2 sum w del del^T, which is the appendix's A - b b^T / 2m with
-//! weights and centred (the printed form cancels far from the origin). n* is the eigenvector of
-//! the algebraically smallest eigenvalue and E = 1/2 sum w |p - q|^2 + lambda_1.
+//! n* is the eigenvector of the algebraically smallest eigenvalue of M (`Swaps`) and
+//! E = 1/2 sum w |p - q|^2 + lambda_1: midpoints should lie in the plane, differences along n.
 
-use crate::geom::{Matrix3, Point, Vector, sorted_eigen};
+use crate::geom::Point;
 use crate::transform::isometry::Plane;
-
-/// Where the shapes live. In the plane the normal is kept at z = 0: a 3x3 solve on planar pairs
-/// would find the useless mirror z -> -z.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ambient {
-    /// z = 0.
-    Plane,
-    /// All of space.
-    Space,
-}
-
-/// A weighted pair of points that a symmetry should exchange.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Correspondence {
-    /// One point.
-    pub p: Point,
-    /// Its partner.
-    pub q: Point,
-    /// At least 0.
-    pub weight: f64,
-}
+use crate::transform::optimal::{
+    Ambient, Correspondence, SMALLEST_EXPLAINED, SMALLEST_GAP, Swaps, eigen_in, relative_gap,
+};
 
 /// The optimal mirror of a set of pairs and how well it is determined.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,69 +24,35 @@ pub struct MirrorFit {
 }
 
 impl MirrorFit {
-    /// The conditioning test: the normal is determined and the pairs do speak for a mirror
-    /// (thresholds measured on degenerate sets: spheres, half-turns, translations).
+    /// The conditioning test: the normal is determined and the pairs do speak for a mirror.
     pub fn is_well_conditioned(&self) -> bool {
-        self.gap > 0.05 && self.explained > 0.9
+        self.gap > SMALLEST_GAP && self.explained > SMALLEST_EXPLAINED
     }
 }
 
 /// The mirror that minimises sum w (|d_p|^2 + |d_q|^2) over all planes (appendix A, reflection);
 /// `None` without pairs of positive total weight, or where every pair is one and the same point.
 pub fn optimal_mirror(pairs: &[Correspondence], ambient: Ambient) -> Option<MirrorFit> {
-    let total: f64 = pairs.iter().map(|c| c.weight).sum();
-    if !(total > 0.0 && total.is_finite()) {
-        return None;
-    }
-    let c = pairs
-        .iter()
-        .map(|x| (x.p.coords + x.q.coords) * (x.weight / (2.0 * total)))
-        .sum::<Vector>();
-    let mut m = Matrix3::zeros();
-    let mut spread = 0.0;
-    for x in pairs {
-        let s = (x.p.coords + x.q.coords) / 2.0 - c;
-        let del = x.p - x.q;
-        m += x.weight * (2.0 * s * s.transpose() - 0.5 * del * del.transpose());
-        spread += x.weight * del.norm_squared();
-    }
-    if m.norm() == 0.0 {
-        return None;
-    }
-    let (lambda, vectors) = eigen_in(m, ambient);
+    let swaps = Swaps::of(pairs)?;
+    let (lambda, vectors) = eigen_in(swaps.m, ambient);
     let normal = vectors.column(0).into_owned();
-    let largest = lambda.iter().fold(0.0_f64, |a, l| a.max(l.abs()));
+    let spread = swaps.spread;
     Some(MirrorFit {
-        plane: Plane::through(&Point::from(c), normal).canonical(),
+        plane: Plane::through(&Point::from(swaps.centre), normal).canonical(),
         cost: (0.5 * spread + lambda[0]).max(0.0),
         explained: if spread > 0.0 {
             -2.0 * lambda[0] / spread
         } else {
             0.0
         },
-        gap: (lambda[1] - lambda[0]) / largest,
+        gap: relative_gap(&lambda, 0, 1),
     })
-}
-
-/// Sorted eigenpairs of M; in the plane those of its upper 2x2 block, with z last.
-fn eigen_in(m: Matrix3, ambient: Ambient) -> (Vector, Matrix3) {
-    match ambient {
-        Ambient::Space => sorted_eigen(&m),
-        Ambient::Plane => {
-            let e = m.fixed_view::<2, 2>(0, 0).into_owned().symmetric_eigen();
-            let first = usize::from(e.eigenvalues[1] < e.eigenvalues[0]);
-            let column =
-                |i: usize| Vector::new(e.eigenvectors[(0, i)], e.eigenvectors[(1, i)], 0.0);
-            let vectors = Matrix3::from_columns(&[column(first), column(1 - first), Vector::z()]);
-            let last = e.eigenvalues[1 - first];
-            (Vector::new(e.eigenvalues[first], last, last), vectors)
-        }
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::Vector;
     use crate::transform::{Isometry, displacements};
     use rand::RngExt;
     use rand_pcg::Pcg64;
