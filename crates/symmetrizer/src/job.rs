@@ -200,7 +200,12 @@ impl Symmetrized {
     }
 
     /// Takes over what was `done`: the moved shape, its symmetries and figures.
-    fn conclude(&mut self, done: Optimized, params: &DetectParams, ctx: &mut Context<'_>) -> Result<()> {
+    fn conclude(
+        &mut self,
+        done: Optimized,
+        params: &DetectParams,
+        ctx: &mut Context<'_>,
+    ) -> Result<()> {
         let before = &self.before;
         self.shape = before.working.moved_document(&self.shape, &done.positions);
         let working = Working {

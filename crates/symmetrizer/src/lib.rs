@@ -20,6 +20,7 @@ pub mod picture;
 pub mod report;
 pub mod sample;
 pub mod shape;
+pub mod slip;
 pub mod transform;
 
 pub use context::{CancelToken, Context, Event};

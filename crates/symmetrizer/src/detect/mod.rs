@@ -1,7 +1,10 @@
 //! Detection: samples, pairs, clusters and patches in a row, a cloud of votes for each class
 //! (section 2).
 
+pub mod groups;
 mod search;
+
+pub use groups::Group;
 
 use crate::cluster::{ClusterParams, Votes};
 use crate::context::Context;
@@ -11,6 +14,7 @@ use crate::patch::grow::Ground;
 use crate::patch::{PatchParams, Refusal, Symmetry};
 use crate::sample::{SampleParams, Samples, probes, sample};
 use crate::shape::{ClosestPoint, Surface};
+use crate::slip::Continuous;
 use crate::transform::{Class, TransformSpace};
 
 /// Parameters of detection, a section for each stage.
@@ -63,6 +67,10 @@ pub struct Detection {
     pub symmetries: Vec<Symmetry>,
     /// Modes that were looked at and refused.
     pub refused: Vec<Refusal>,
+    /// Which symmetries belong together, those of most of the surface first.
+    pub groups: Vec<Group>,
+    /// Parts that slide along themselves, the largest first.
+    pub continuous: Vec<Continuous>,
 }
 
 /// Finds the symmetries of `surface`, partial ones too.
@@ -103,7 +111,15 @@ pub fn detect(
         };
         let clusters = ctx.stage("cluster", |_| Ok(cloud.votes.clusters(&params.cluster)))?;
         let found = ctx.stage("patch", |ctx| {
-            search::search(&ground, &space, clusters, &mut cloud, &symmetries, params, ctx)
+            search::search(
+                &ground,
+                &space,
+                clusters,
+                &mut cloud,
+                &symmetries,
+                params,
+                ctx,
+            )
         })?;
         for symmetry in found.symmetries {
             let id = symmetries.len() as u32;
@@ -118,5 +134,7 @@ pub fn detect(
         clouds,
         symmetries,
         refused,
+        groups: Vec::new(),
+        continuous: Vec::new(),
     })
 }

@@ -176,7 +176,11 @@ impl Votes {
         let symmetries =
             symmetries.map(|s| mark(&s.q_from_p, s.height, s.id.to_string(), s.id as usize));
         Self {
-            points: found.clouds[0].pairs.iter().map(|v| place(&v.q_from_p)).collect(),
+            points: found.clouds[0]
+                .pairs
+                .iter()
+                .map(|v| place(&v.q_from_p))
+                .collect(),
             weights: found.clouds[0].pairs.iter().map(|v| v.weight).collect(),
             modes: symmetries.chain(refused).collect(),
         }

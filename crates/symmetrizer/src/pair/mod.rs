@@ -55,4 +55,3 @@ pub struct Pair {
     /// How much the vote counts: small for places that look like many others.
     pub weight: f64,
 }
-

@@ -81,7 +81,9 @@ fn partners(
         .take(CANDIDATES * params.partners)
         .flat_map(|&q| {
             let other = &probes[q as usize].sample.relief;
-            let mut turns = s.relief.alignments(other, class.is_improper(), params.max_gap);
+            let mut turns = s
+                .relief
+                .alignments(other, class.is_improper(), params.max_gap);
             turns.truncate(TURNS);
             turns.into_iter().map(move |a| (a.gap, q, a.turn))
         })

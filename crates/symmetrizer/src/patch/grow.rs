@@ -10,9 +10,7 @@ use crate::patch::refine::{Contact, refine, weigh};
 use crate::patch::symmetry::{PatchPair, Refusal, Symmetry};
 use crate::sample::Samples;
 use crate::shape::{ClosestPoint, Surface};
-use crate::transform::{
-    Ambient, Class, Correspondence, Isometry, TransformSpace, optimal_mirror,
-};
+use crate::transform::{Ambient, Class, Correspondence, Isometry, TransformSpace, optimal_mirror};
 
 /// When an isometry holds for a part of the surface.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -110,7 +108,9 @@ pub fn grow_patch(
         .collect();
     seeds.sort_unstable();
     seeds.dedup();
-    let near = seeds.first().map_or(Point::origin(), |&s| list[s as usize].position);
+    let near = seeds
+        .first()
+        .map_or(Point::origin(), |&s| list[s as usize].position);
     let refuse = |t: Isometry, reason: String| Refusal {
         class,
         q_from_p: t,
@@ -244,7 +244,10 @@ pub fn contacts(ground: &Ground<'_>, grown: &[PatchPair]) -> Vec<Contact> {
 
 /// The samples that lie in the image of a patch: those next to a partner and facing its way.
 pub fn image(ground: &Ground<'_>, grown: &[PatchPair]) -> Vec<u32> {
-    let partners: Vec<Point> = grown.iter().map(|p| ground.surface.point(&p.partner)).collect();
+    let partners: Vec<Point> = grown
+        .iter()
+        .map(|p| ground.surface.point(&p.partner))
+        .collect();
     let places: Vec<[f64; 3]> = partners.iter().map(|p| p.coords.into()).collect();
     let index = PointIndex::new(&places);
     let list = &ground.samples.list;
@@ -256,7 +259,13 @@ pub fn image(ground: &Ground<'_>, grown: &[PatchPair]) -> Vec<u32> {
             index
                 .within(&s.position.coords.into(), ground.samples.spacing)
                 .into_iter()
-                .any(|k| ground.surface.normal(&grown[k as usize].partner).dot(&s.normal) > 0.25)
+                .any(|k| {
+                    ground
+                        .surface
+                        .normal(&grown[k as usize].partner)
+                        .dot(&s.normal)
+                        > 0.25
+                })
         })
         .collect()
 }

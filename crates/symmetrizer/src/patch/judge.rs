@@ -42,7 +42,9 @@ pub fn judge(
         ));
     }
     let q_from_p = match class {
-        Class::Mirror => Isometry::mirror(&t.nearest_mirror(&nalgebra::Point3::origin()).canonical()),
+        Class::Mirror => {
+            Isometry::mirror(&t.nearest_mirror(&nalgebra::Point3::origin()).canonical())
+        }
         Class::Proper | Class::Improper => t,
     };
     Ok(Symmetry {
@@ -107,9 +109,19 @@ fn well_determined(
     if firmness < params.min_firmness {
         return Err(format!("slides along itself (firmness {firmness:.3})"));
     }
-    let moved = contacts.iter().map(|c| (c.y - c.x).norm_squared()).sum::<f64>();
-    let center = contacts.iter().map(|c| c.x.coords).sum::<crate::geom::Vector>() / grown.len() as f64;
-    let size = contacts.iter().map(|c| (c.x.coords - center).norm_squared()).sum::<f64>();
+    let moved = contacts
+        .iter()
+        .map(|c| (c.y - c.x).norm_squared())
+        .sum::<f64>();
+    let center = contacts
+        .iter()
+        .map(|c| c.x.coords)
+        .sum::<crate::geom::Vector>()
+        / grown.len() as f64;
+    let size = contacts
+        .iter()
+        .map(|c| (c.x.coords - center).norm_squared())
+        .sum::<f64>();
     if moved < MIN_MOTION * MIN_MOTION * size {
         return Err("hardly moves its patch".into());
     }

@@ -48,9 +48,7 @@ pub fn weigh(t: &Isometry, contacts: &mut [Contact]) {
     if distances.is_empty() {
         return;
     }
-    let median = *distances
-        .select_nth_unstable_by(middle, f64::total_cmp)
-        .1;
+    let median = *distances.select_nth_unstable_by(middle, f64::total_cmp).1;
     let s = (1.5 * median).max(1e-9);
     for c in contacts {
         let r = (t.apply(&c.x) - c.y).norm() / s;

@@ -55,7 +55,10 @@ impl RefusalReport {
     /// `refusal` in document coordinates.
     pub fn new(refusal: &Refusal, normalization: &Normalization) -> Self {
         Self {
-            plane: PlaneReport::new(&refusal.q_from_p.nearest_mirror(&Point::origin()), normalization),
+            plane: PlaneReport::new(
+                &refusal.q_from_p.nearest_mirror(&Point::origin()),
+                normalization,
+            ),
             height: refusal.height,
             reason: refusal.reason.clone(),
         }

@@ -35,7 +35,11 @@ pub fn probes(surface: &Surface, samples: &Samples, count: usize, rng: &mut Pcg6
     if share == 0.0 {
         return Vec::new();
     }
-    let places: Vec<[f64; 3]> = samples.list.iter().map(|s| s.position.coords.into()).collect();
+    let places: Vec<[f64; 3]> = samples
+        .list
+        .iter()
+        .map(|s| s.position.coords.into())
+        .collect();
     let index = PointIndex::new(&places);
     let place = |at: &SurfacePoint| index.nearest(&surface.point(at).coords.into());
     let thrown = (DARTS_PER_SAMPLE * count) as f64 / share.max(0.02);

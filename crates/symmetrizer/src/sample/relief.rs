@@ -297,14 +297,18 @@ impl Correlation {
         let gaps: [f64; STEPS] = std::array::from_fn(|k| self.gap(step * k as f64));
         (0..STEPS)
             .filter_map(|k| {
-                let (before, here, after) =
-                    (gaps[(k + STEPS - 1) % STEPS], gaps[k], gaps[(k + 1) % STEPS]);
+                let (before, here, after) = (
+                    gaps[(k + STEPS - 1) % STEPS],
+                    gaps[k],
+                    gaps[(k + 1) % STEPS],
+                );
                 if here > before || here >= after || here > 1.5 * tolerance {
                     return None;
                 }
                 let turn = self.polish(step * k as f64);
                 let gap = self.gap(turn);
-                (gap <= tolerance && self.directedness(turn) > gap).then_some(Alignment { turn, gap })
+                (gap <= tolerance && self.directedness(turn) > gap)
+                    .then_some(Alignment { turn, gap })
             })
             .collect()
     }
@@ -343,7 +347,8 @@ mod tests {
             .map(|k| {
                 let x = f64::from(k / n) / f64::from(n) - 0.5 + 0.002 * f64::from(k % 7) / 7.0;
                 let y = f64::from(k % n) / f64::from(n) - 0.5;
-                let h = 0.05 * (9.0 * x + 4.0 * y).sin() + 0.3 * x * x * y - 0.2 * y * y + 0.4 * x * x * x;
+                let h = 0.05 * (9.0 * x + 4.0 * y).sin() + 0.3 * x * x * y - 0.2 * y * y
+                    + 0.4 * x * x * x;
                 Point::new(x, y, h)
             })
             .collect();
@@ -382,9 +387,11 @@ mod tests {
             translation: Vector::new(1.0, 2.0, 3.0),
         };
         for (t, mirrored) in [(motion, false), (mirror, true)] {
-            let moved = surface.with_positions(surface.positions.iter().map(|p| t.apply(p)).collect());
+            let moved =
+                surface.with_positions(surface.positions.iter().map(|p| t.apply(p)).collect());
             // A mirrored copy is seen from outside again when its triangles are turned.
-            let triangles: Vec<[u32; 3]> = moved.triangles.iter().map(|&[a, b, c]| [b, a, c]).collect();
+            let triangles: Vec<[u32; 3]> =
+                moved.triangles.iter().map(|&[a, b, c]| [b, a, c]).collect();
             let moved = if mirrored {
                 Surface::new(moved.positions, triangles.into())
             } else {
@@ -400,7 +407,10 @@ mod tests {
             assert_eq!(best.len(), 1, "{best:?}");
             assert!(best[0].gap < 1e-5);
             let e1 = there.turned(best[0].turn).e1;
-            assert!((e1 - t.rotate(&frame.e1)).norm() < 1e-5, "mirrored {mirrored}");
+            assert!(
+                (e1 - t.rotate(&frame.e1)).norm() < 1e-5,
+                "mirrored {mirrored}"
+            );
             assert!(relief.least_gap(&other).unwrap() <= best[0].gap + 1e-6);
             // The other hand does not fit.
             assert!(relief.alignments(&other, !mirrored, 0.05).is_empty());
@@ -410,9 +420,10 @@ mod tests {
     /// The strength is the rms height over the disc: that of a bowl, without the level that is its place.
     #[test]
     fn the_strength_is_a_height() {
-        let positions = ground().positions.iter().map(|p| {
-            Point::new(p.x, p.y, 0.5 * (p.x * p.x + p.y * p.y))
-        });
+        let positions = ground()
+            .positions
+            .iter()
+            .map(|p| Point::new(p.x, p.y, 0.5 * (p.x * p.x + p.y * p.y)));
         let bowl = ground().with_positions(positions.collect());
         let frame = Frame {
             n: Vector::z(),
@@ -421,7 +432,11 @@ mod tests {
         let strength = relief_of(&bowl, &frame, &Point::origin()).strength();
         // h = r rho^2 / 2 at r, 2r, 4r; rho^2 varies by sqrt(1/18) under the weight.
         let radii = [0.06, 0.12, 0.24];
-        let mean: f64 = radii.iter().map(|r| (r / 2.0_f64).powi(2) / 18.0).sum::<f64>() / 3.0;
+        let mean: f64 = radii
+            .iter()
+            .map(|r| (r / 2.0_f64).powi(2) / 18.0)
+            .sum::<f64>()
+            / 3.0;
         assert!((strength / mean.sqrt() - 1.0).abs() < 0.05, "{strength}");
     }
 }

@@ -95,7 +95,9 @@ impl<'a> Describer<'a> {
             signature,
             e1,
             frame,
-            relief: self.harmonics.relief(&self.cloud, &position, &frame, self.r0),
+            relief: self
+                .harmonics
+                .relief(&self.cloud, &position, &frame, self.r0),
         }
     }
 }

@@ -108,9 +108,13 @@ impl Cloud {
             let members = group.iter().map(|&(_, i)| i as usize);
             let area: f64 = members.clone().map(|i| self.areas[i]).sum();
             let mean = |of: &dyn Fn(usize) -> Vector| {
-                members.clone().map(|i| of(i) * (self.areas[i] / area)).sum::<Vector>()
+                members
+                    .clone()
+                    .map(|i| of(i) * (self.areas[i] / area))
+                    .sum::<Vector>()
             };
-            thin.points.push(Point::from(mean(&|i| self.points[i].coords)));
+            thin.points
+                .push(Point::from(mean(&|i| self.points[i].coords)));
             thin.normals.push(mean(&|i| self.normals[i]).normalize());
             thin.areas.push(area);
         }

@@ -1,7 +1,9 @@
 //! The three clouds of transformation space: votes of different classes are never clustered together.
 
 /// What the votes of a cloud have in common.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Class {
     /// Reflections in a plane: three degrees of freedom.

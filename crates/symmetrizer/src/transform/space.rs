@@ -89,11 +89,6 @@ impl TransformSpace {
         }
     }
 
-    /// The centroid of the support.
-    pub fn center(&self) -> Point {
-        Point::from(self.mu)
-    }
-
     /// The rms displacement between two transformations over the support.
     pub fn distance(&self, a: &Isometry, b: &Isometry) -> f64 {
         (self.embed(a) - self.embed(b)).norm()

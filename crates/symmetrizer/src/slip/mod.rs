@@ -1,0 +1,41 @@
+//! Continuous symmetries: parts of a surface that slide along themselves.
+
+use crate::geom::{Point, Vector};
+
+/// The ways in which a surface can slide along itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Slip {
+    /// Turns about one axis by any angle: a surface of revolution.
+    Revolution,
+    /// Shifts along one direction by any length: an extrusion.
+    Extrusion,
+    /// Turns with a shift along the axis in proportion.
+    Helix,
+    /// Turns about one axis and shifts along it.
+    Cylinder,
+    /// Turns about one point.
+    Sphere,
+    /// Shifts within a plane and turns in it.
+    Plane,
+}
+
+/// A continuous symmetry of a part of a surface, working coordinates.
+#[derive(Debug, Clone)]
+pub struct Continuous {
+    /// How it slides.
+    pub slip: Slip,
+    /// Unit direction of the axis, of an extrusion's shift or of a plane's normal; none for a sphere.
+    pub axis: Option<Vector>,
+    /// A point of the axis, the middle of a sphere, a point of the plane: that nearest to the patch's
+    /// centroid.
+    pub point: Point,
+    /// Shift per radian of a helix, fraction of L.
+    pub pitch: f64,
+    /// The samples of the patch, increasing.
+    pub samples: Vec<u32>,
+    /// The patch as a share of the surface's area.
+    pub area_fraction: f64,
+    /// rms angle between the slide and the surface, radians.
+    pub rms: f64,
+}
