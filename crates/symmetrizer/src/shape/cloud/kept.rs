@@ -1,0 +1,118 @@
+//! Which points of a cloud stand for the others.
+
+use crate::geom::Point;
+use crate::shape::mesh::is_finite;
+
+/// Points that become discs at the most: their spacing is then about half a percent of L, a quarter of
+/// the distance within which detection calls two surfaces the same.
+const MAX_KEPT: usize = 30_000;
+/// Thinning ends with at least this share of [`MAX_KEPT`], ...
+const ENOUGH: f64 = 0.7;
+/// ... or after this many sizes of the cells.
+const SIZES: usize = 12;
+
+/// The document's indices of the finite `points` in different places, each place once, and for each
+/// document point the number of its place among them.
+pub(super) fn distinct(points: &[Point]) -> (Vec<u32>, Vec<Option<u32>>) {
+    // Adding 0.0 makes -0.0 and 0.0 one place.
+    let key = |i: u32| <[f64; 3]>::from(points[i as usize].coords.map(|c| c + 0.0));
+    let compare = |a: u32, b: u32| {
+        let pairs = key(a).into_iter().zip(key(b));
+        pairs
+            .map(|(p, q)| p.total_cmp(&q))
+            .fold(std::cmp::Ordering::Equal, std::cmp::Ordering::then)
+    };
+    let mut order: Vec<u32> = (0..points.len() as u32)
+        .filter(|&i| is_finite(&points[i as usize]))
+        .collect();
+    order.sort_unstable_by(|&a, &b| compare(a, b).then(a.cmp(&b)));
+    let mut leader = vec![None; points.len()];
+    for same in order.chunk_by(|&a, &b| compare(a, b).is_eq()) {
+        for &i in same {
+            leader[i as usize] = Some(same[0]);
+        }
+    }
+    let mut places = Vec::new();
+    let mut number = vec![None; points.len()];
+    for i in 0..points.len() {
+        let Some(first) = leader[i] else { continue };
+        // A leader is the first of its place in the file and has its number before the others.
+        if first as usize == i {
+            number[i] = Some(places.len() as u32);
+            places.push(first);
+        }
+        number[i] = number[first as usize];
+    }
+    (places, number)
+}
+
+/// Indices of those of `points` that are kept, increasing: all, or where they are too many the one
+/// nearest to the middle of each cell of a grid that is fine enough; and for each point the number of
+/// the kept one of its cell.
+pub(super) fn thin(points: &[Point]) -> (Vec<u32>, Vec<u32>) {
+    let all = || (0..points.len() as u32).collect::<Vec<_>>();
+    if points.len() <= MAX_KEPT {
+        return (all(), all());
+    }
+    let low = points.iter().fold(points[0], |low, p| low.inf(p));
+    let high = points.iter().fold(points[0], |high, p| high.sup(p));
+    let wanted =
+        |count: usize| (ENOUGH * MAX_KEPT as f64..=MAX_KEPT as f64).contains(&(count as f64));
+    let mut size = (high - low).norm() / (MAX_KEPT as f64).sqrt();
+    let mut cells = Cells::new(points, low, size);
+    for _ in 0..SIZES {
+        if wanted(cells.count()) {
+            break;
+        }
+        // Cells that a surface meets grow fewer with the square of their size.
+        size *= (cells.count() as f64 / (0.85 * MAX_KEPT as f64)).sqrt();
+        cells = Cells::new(points, low, size);
+    }
+    cells.kept(points)
+}
+
+/// Points sorted by the cell of a grid that they are in.
+struct Cells {
+    low: Point,
+    size: f64,
+    order: Vec<([u32; 3], u32)>,
+}
+
+impl Cells {
+    fn new(points: &[Point], low: Point, size: f64) -> Self {
+        let cell = |p: &Point| <[u32; 3]>::from(((p - low) / size).map(|c| c as u32));
+        let mut order: Vec<([u32; 3], u32)> =
+            (0..).zip(points).map(|(i, p)| (cell(p), i)).collect();
+        order.sort_unstable();
+        Self { low, size, order }
+    }
+
+    fn each(&self) -> impl Iterator<Item = &[([u32; 3], u32)]> {
+        self.order.chunk_by(|a, b| a.0 == b.0)
+    }
+
+    fn count(&self) -> usize {
+        self.each().count()
+    }
+
+    fn kept(&self, points: &[Point]) -> (Vec<u32>, Vec<u32>) {
+        let mut chosen = vec![0; points.len()];
+        for cell in self.each() {
+            let middle = self.low.coords
+                + crate::geom::Vector::from(cell[0].0.map(|c| f64::from(c) + 0.5)) * self.size;
+            let gap = |i: u32| (points[i as usize].coords - middle).norm_squared();
+            let nearer = |a: u32, b: u32| if gap(b) < gap(a) { b } else { a };
+            let best = cell.iter().map(|c| c.1).fold(cell[0].1, nearer);
+            cell.iter().for_each(|c| chosen[c.1 as usize] = best);
+        }
+        let mut kept = chosen.clone();
+        kept.sort_unstable();
+        kept.dedup();
+        let mut number = vec![0; points.len()];
+        (0..).zip(&kept).for_each(|(n, &k)| number[k as usize] = n);
+        (
+            kept,
+            chosen.into_iter().map(|k| number[k as usize]).collect(),
+        )
+    }
+}

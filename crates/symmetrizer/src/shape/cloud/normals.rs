@@ -1,0 +1,95 @@
+//! Normals of a cloud, its noise, and its points brought onto the surface that they scatter about.
+
+use rayon::prelude::*;
+
+use super::local::{Local, local};
+use crate::geom::{Point, PointIndex};
+
+/// Neighbours of a fit at the least: a quadric has six parameters.
+const FEWEST: usize = 16;
+/// Neighbours of a fit at the most.
+const MOST: usize = 96;
+/// Neighbours by which spacing and noise are judged.
+const SURVEYED: usize = 24;
+/// Points at which they are judged.
+const SURVEYS: usize = 3000;
+/// Error of a normal that noise may cause, radians: about 3.5 degrees.
+const WANTED: f64 = 0.06;
+
+/// What a survey of a cloud found.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Survey {
+    /// Side of the square that a point stands for, median.
+    pub spacing: f64,
+    /// Standard deviation of the points' distance from the surface, median.
+    pub noise: f64,
+}
+
+/// Spacing and noise of `points`.
+pub(super) fn survey(points: &[Point], index: &PointIndex<3>) -> Survey {
+    let found: Vec<(f64, f64)> = points
+        .par_iter()
+        .step_by(points.len().div_ceil(SURVEYS).max(1))
+        .map(|x| {
+            let hits = index.nearest_n(&x.coords.into(), SURVEYED + 1);
+            let fit = local(x, &places(points, &hits));
+            (side(&hits), fit.spread)
+        })
+        .collect();
+    Survey {
+        spacing: median(found.iter().map(|f| f.0)),
+        noise: median(found.iter().map(|f| f.1)),
+    }
+}
+
+/// Side of the square that a point stands for, by the distance of the last of its neighbours.
+fn side(hits: &[(u32, f64)]) -> f64 {
+    let reach = hits.last().map_or(0.0, |h| h.1);
+    (std::f64::consts::PI * reach / hits.len().max(2) as f64).sqrt()
+}
+
+fn places(points: &[Point], hits: &[(u32, f64)]) -> Vec<Point> {
+    hits.iter().map(|h| points[h.0 as usize]).collect()
+}
+
+pub(super) fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    let middle = values.len() / 2;
+    if values.is_empty() {
+        return 0.0;
+    }
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// The surface next to each point numbered in `kept`, by so many of all `points` around it that the
+/// noise turns the normal by about [`WANTED`] at the most.
+pub(super) fn locals(
+    points: &[Point],
+    kept: &[u32],
+    index: &PointIndex<3>,
+    survey: &Survey,
+) -> Vec<Local> {
+    kept.par_iter()
+        .map(|&i| {
+            let x = &points[i as usize];
+            let near = index.nearest_n(&x.coords.into(), FEWEST);
+            let mut count = enough(survey.noise, side(&near));
+            loop {
+                let hits = index.nearest_n(&x.coords.into(), count);
+                let fit = local(x, &places(points, &hits));
+                // A scanner's lines may lie closer along than across.
+                if !fit.in_line || count >= 4 * MOST || hits.len() == points.len() {
+                    return fit;
+                }
+                count *= 2;
+            }
+        })
+        .collect()
+}
+
+/// How many neighbours steady a normal: a plane over k of them reaches r = spacing sqrt(k / pi), and
+/// noise turns it by about 2 noise / (r sqrt k).
+fn enough(noise: f64, spacing: f64) -> usize {
+    let steady = 2.0 * std::f64::consts::PI.sqrt() * noise / (WANTED * spacing);
+    (steady.ceil() as usize).clamp(FEWEST, MOST)
+}
