@@ -17,6 +17,7 @@ use crate::geom::{Matrix3, Point, PointIndex, Vector, sorted_eigen};
 use discs::{areas, squares};
 use kept::{distinct, thin};
 use normals::{Survey, locals, survey};
+use orient::{Sided, disagreement, orient};
 
 pub(in crate::shape) use discs::CORNERS;
 
@@ -30,6 +31,8 @@ const UNSIDED: f64 = 0.2;
 /// Noise, in units of the spacing, from which points are moved onto their quadrics: below it that
 /// would only round edges.
 const NOISY: f64 = 0.05;
+/// Scatter about a quadric, in units of the spacing, that curvature may cause.
+const SCATTER: f64 = 0.1;
 
 /// A surface of discs.
 #[derive(Debug, Clone)]
@@ -71,12 +74,12 @@ impl Discs {
             .map(|p| Point::from((p - center) / scale))
             .collect();
         let (kept, cell) = thin(&unit);
-        let mut discs = Self::over(&unit, &kept);
+        let (mut discs, trust) = Self::over(&unit, &kept);
         let given = given.and_then(|given| {
             let place = |&k: &u32| places[k as usize] as usize;
             usable(kept.iter().map(|k| given[place(k)]))
         });
-        discs.face(given);
+        discs.face(given, &trust);
         discs.areas = areas(&discs.points, &discs.normals);
         discs.document = kept.iter().map(|&k| places[k as usize]).collect();
         let disc = |place: Option<u32>| place.map(|p| cell[p as usize]);
@@ -85,8 +88,9 @@ impl Discs {
         Ok(discs)
     }
 
-    /// Discs at the points numbered in `kept`, with normals to either side.
-    fn over(points: &[Point], kept: &[u32]) -> Self {
+    /// Discs at the points numbered in `kept`, with normals to either side, and how far these can be
+    /// trusted: not where the points scatter more than by noise, as about a sharp rim.
+    fn over(points: &[Point], kept: &[u32]) -> (Self, Vec<f64>) {
         let coordinates: Vec<[f64; 3]> = points.iter().map(|p| p.coords.into()).collect();
         let index = PointIndex::new(&coordinates);
         let found: Survey = survey(points, &index);
@@ -94,7 +98,9 @@ impl Discs {
         let moves = found.noise > NOISY * found.spacing;
         let place =
             |(l, &k): (&local::Local, &u32)| if moves { l.foot } else { points[k as usize] };
-        Self {
+        let usual = 1.5 * found.noise + SCATTER * found.spacing;
+        let trust = locals.iter().map(|l| (usual / l.spread).min(1.0)).collect();
+        let discs = Self {
             points: locals.iter().zip(kept).map(place).collect(),
             normals: locals.iter().map(|l| l.normal).collect(),
             areas: Vec::new(),
@@ -102,20 +108,25 @@ impl Discs {
             disc_of_document: Vec::new(),
             noise: found.noise,
             spacing: found.spacing,
-        }
+        };
+        (discs, trust)
     }
 
     /// Turns the normals to one side, after taking over the `given` ones, whose side counts unless
     /// neighbours disagree about it.
-    fn face(&mut self, given: Option<Vec<Vector>>) {
+    fn face(&mut self, given: Option<Vec<Vector>>, trust: &[f64]) {
         let is_given = given.is_some();
         if let Some(given) = given {
             self.normals = given;
         }
-        let sided =
-            is_given && orient::disagreement(&self.points, &self.normals, self.noise) <= UNSIDED;
-        if !sided {
-            orient::orient(&self.points, &mut self.normals, self.noise);
+        let sided = Sided {
+            points: &self.points,
+            normals: &self.normals,
+            trust,
+            noise: self.noise,
+        };
+        if !is_given || disagreement(sided) > UNSIDED {
+            self.normals = orient(sided);
         }
     }
 

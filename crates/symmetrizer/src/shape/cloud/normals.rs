@@ -6,11 +6,11 @@ use super::local::{Local, local};
 use crate::geom::{Point, PointIndex};
 
 /// Neighbours of a fit at the least: a quadric has six parameters.
-const FEWEST: usize = 16;
+const FEWEST: usize = 12;
 /// Neighbours of a fit at the most.
 const MOST: usize = 96;
 /// Neighbours by which spacing and noise are judged.
-const SURVEYED: usize = 24;
+const SURVEYED: usize = 12;
 /// Points at which they are judged.
 const SURVEYS: usize = 3000;
 /// Error of a normal that noise may cause, radians: about 3.5 degrees.

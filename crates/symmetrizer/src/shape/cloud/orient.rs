@@ -14,7 +14,7 @@ const NEIGHBOURS: usize = 10;
 /// Agreement from which two neighbours need no vote.
 const CLEAR: f64 = 0.85;
 /// Noise below which the direction between two neighbours says nothing, in standard deviations.
-const BLURRED: f64 = 2.0;
+const BLURRED: f64 = 0.7;
 /// Directions in which the outermost points are looked for.
 const DIRECTIONS: usize = 256;
 
@@ -26,10 +26,24 @@ struct Bond {
     agreement: f64,
 }
 
-/// Turns the unit `normals` of `points` to one side, outwards where that can be told; `noise` is the
-/// standard deviation of the points' distance from the surface.
-pub(super) fn orient(points: &[Point], normals: &mut [Vector], noise: f64) {
-    let bonds = bonds(points, normals, noise);
+/// Unit normals of points, to either side, and how far they can be trusted.
+#[derive(Clone, Copy)]
+pub(super) struct Sided<'a> {
+    /// Where.
+    pub points: &'a [Point],
+    /// The normals.
+    pub normals: &'a [Vector],
+    /// From 1, clear, to 0, unknown.
+    pub trust: &'a [f64],
+    /// Standard deviation of the points' distance from the surface.
+    pub noise: f64,
+}
+
+/// The given normals turned to one side, outwards where that can be told.
+pub(super) fn orient(given: Sided<'_>) -> Vec<Vector> {
+    let points = given.points;
+    let mut normals = given.normals.to_vec();
+    let bonds = bonds(given);
     let mut sides = Sides::new(points.len());
     for bond in bonds.iter().take_while(|b| b.agreement.abs() >= CLEAR) {
         sides.join(bond.i, bond.j, bond.agreement < 0.0);
@@ -42,24 +56,31 @@ pub(super) fn orient(points: &[Point], normals: &mut [Vector], noise: f64) {
         }
     }
     let regions: Vec<u32> = found.into_iter().map(|f| f.0).collect();
-    let inwards = inwards(points, normals, &regions);
+    let inwards = inwards(points, &normals, &regions);
     for (n, &region) in normals.iter_mut().zip(&regions) {
         if inwards[region as usize] {
             *n = -*n;
         }
     }
+    normals
 }
 
 /// The share of neighbours whose normals are clearly on different sides.
-pub(super) fn disagreement(points: &[Point], normals: &[Vector], noise: f64) -> f64 {
-    let bonds = bonds(points, normals, noise);
+pub(super) fn disagreement(given: Sided<'_>) -> f64 {
+    let bonds = bonds(given);
     let clear = bonds.iter().filter(|b| b.agreement.abs() >= CLEAR);
     let against = clear.clone().filter(|b| b.agreement < 0.0).count();
     against as f64 / clear.count().max(1) as f64
 }
 
 /// All bonds, the clearest first.
-fn bonds(points: &[Point], normals: &[Vector], noise: f64) -> Vec<Bond> {
+fn bonds(given: Sided<'_>) -> Vec<Bond> {
+    let Sided {
+        points,
+        normals,
+        trust,
+        noise,
+    } = given;
     let places: Vec<[f64; 3]> = points.iter().map(|p| p.coords.into()).collect();
     let index = PointIndex::new(&places);
     let blur = (BLURRED * noise).powi(2);
@@ -71,7 +92,8 @@ fn bonds(points: &[Point], normals: &[Vector], noise: f64) -> Vec<Bond> {
             others.map(move |j| Bond {
                 i: i as u32,
                 j: j as u32,
-                agreement: agreement([points[i], points[j]], [normals[i], normals[j]], blur),
+                agreement: trust[i].min(trust[j])
+                    * agreement([points[i], points[j]], [normals[i], normals[j]], blur),
             })
         })
         .collect();
