@@ -3,10 +3,7 @@
 use crate::geom::Point;
 use crate::shape::mesh::is_finite;
 
-/// Points that become discs at the most: their spacing is then about half a percent of L, a quarter of
-/// the distance within which detection calls two surfaces the same.
-const MAX_KEPT: usize = 30_000;
-/// Thinning ends with at least this share of [`MAX_KEPT`], ...
+/// Thinning ends with at least this share of the points wanted, ...
 const ENOUGH: f64 = 0.7;
 /// ... or after this many sizes of the cells.
 const SIZES: usize = 12;
@@ -46,26 +43,25 @@ pub(super) fn distinct(points: &[Point]) -> (Vec<u32>, Vec<Option<u32>>) {
     (places, number)
 }
 
-/// Indices of those of `points` that are kept, increasing: all, or where they are too many the one
-/// nearest to the middle of each cell of a grid that is fine enough; and for each point the number of
-/// the kept one of its cell.
-pub(super) fn thin(points: &[Point]) -> (Vec<u32>, Vec<u32>) {
+/// Indices of those of `points` that are kept, increasing: all, or where they are more than `most` the one
+/// nearest to the middle of each cell of a grid that leaves about `most`; and for each point the
+/// number of the kept one of its cell.
+pub(super) fn thin(points: &[Point], most: usize) -> (Vec<u32>, Vec<u32>) {
     let all = || (0..points.len() as u32).collect::<Vec<_>>();
-    if points.len() <= MAX_KEPT {
+    if points.len() <= most {
         return (all(), all());
     }
     let low = points.iter().fold(points[0], |low, p| low.inf(p));
     let high = points.iter().fold(points[0], |high, p| high.sup(p));
-    let wanted =
-        |count: usize| (ENOUGH * MAX_KEPT as f64..=MAX_KEPT as f64).contains(&(count as f64));
-    let mut size = (high - low).norm() / (MAX_KEPT as f64).sqrt();
+    let wanted = |count: usize| (ENOUGH * most as f64..=most as f64).contains(&(count as f64));
+    let mut size = (high - low).norm() / (most as f64).sqrt();
     let mut cells = Cells::new(points, low, size);
     for _ in 0..SIZES {
         if wanted(cells.count()) {
             break;
         }
         // Cells that a surface meets grow fewer with the square of their size.
-        size *= (cells.count() as f64 / (0.85 * MAX_KEPT as f64)).sqrt();
+        size *= (cells.count() as f64 / (0.85 * most as f64)).sqrt();
         cells = Cells::new(points, low, size);
     }
     cells.kept(points)

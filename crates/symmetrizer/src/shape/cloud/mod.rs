@@ -24,6 +24,11 @@ pub(in crate::shape) use discs::CORNERS;
 /// Points in different places that a cloud must have: fewer show no curvature.
 pub const FEWEST: usize = 50;
 
+/// Points that become discs at the most: their spacing is then about half a percent of L, a quarter of
+/// the distance within which detection calls two surfaces the same.
+const MOST_DISCS: usize = 30_000;
+/// Points that the discs' normals and the noise are judged by at the most.
+const MOST_FITTED: usize = 100_000;
 /// Ratio of the middle to the largest variance of all points below which they lie on a line.
 const LINE: f64 = 1e-10;
 /// Share of neighbours on different sides above which given normals count as directions without a side.
@@ -73,16 +78,18 @@ impl Discs {
             .iter()
             .map(|p| Point::from((p - center) / scale))
             .collect();
-        let (kept, cell) = thin(&unit);
-        let (mut discs, trust) = Self::over(&unit, &kept);
-        let given = given.and_then(|given| {
-            let place = |&k: &u32| places[k as usize] as usize;
-            usable(kept.iter().map(|k| given[place(k)]))
-        });
+        // What the discs' normals are fitted to, and what becomes a disc.
+        let (fitted, cell) = thin(&unit, MOST_FITTED);
+        let at = |i: &u32| unit[*i as usize];
+        let fitted_points: Vec<Point> = fitted.iter().map(at).collect();
+        let (kept, wide_cell) = thin(&fitted_points, MOST_DISCS);
+        let (mut discs, trust) = Self::over(&fitted_points, &kept);
+        let place = |&k: &u32| places[fitted[k as usize] as usize];
+        let given = given.and_then(|given| usable(kept.iter().map(|k| given[place(k) as usize])));
         discs.face(given, &trust);
         discs.areas = areas(&discs.points, &discs.normals);
-        discs.document = kept.iter().map(|&k| places[k as usize]).collect();
-        let disc = |place: Option<u32>| place.map(|p| cell[p as usize]);
+        discs.document = kept.iter().map(place).collect();
+        let disc = |place: Option<u32>| place.map(|p| wide_cell[cell[p as usize] as usize]);
         discs.disc_of_document = number.into_iter().map(disc).collect();
         discs.scale(&center, scale);
         Ok(discs)

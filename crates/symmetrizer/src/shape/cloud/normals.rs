@@ -1,5 +1,7 @@
 //! Normals of a cloud, its noise, and its points brought onto the surface that they scatter about.
 
+use std::f64::consts::PI;
+
 use rayon::prelude::*;
 
 use super::local::{Local, local};
@@ -8,17 +10,21 @@ use crate::geom::{Point, PointIndex};
 /// Neighbours of a fit at the least: a quadric has six parameters.
 const FEWEST: usize = 12;
 /// Neighbours of a fit at the most.
-const MOST: usize = 96;
-/// Neighbours by which spacing and noise are judged.
+const MOST: usize = 320;
+/// Neighbours by which spacing and noise are judged first: so few see one sheet of a thin shape.
 const SURVEYED: usize = 12;
 /// Points at which they are judged.
 const SURVEYS: usize = 3000;
+/// Noise, in units of the neighbours' reach, from which more neighbours are needed to judge it.
+const THICK: f64 = 0.3;
 /// Error of a normal that noise may cause, radians: about 3.5 degrees.
 const WANTED: f64 = 0.06;
 
 /// What a survey of a cloud found.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Survey {
+    /// Neighbours that it took.
+    count: usize,
     /// Side of the square that a point stands for, median.
     pub spacing: f64,
     /// Standard deviation of the points' distance from the surface, median.
@@ -27,16 +33,29 @@ pub(super) struct Survey {
 
 /// Spacing and noise of `points`.
 pub(super) fn survey(points: &[Point], index: &PointIndex<3>) -> Survey {
+    let mut count = SURVEYED;
+    loop {
+        let found = survey_by(points, index, count);
+        let reach = found.spacing * (count as f64 / PI).sqrt();
+        if found.noise <= THICK * reach || count >= MOST {
+            return found;
+        }
+        count *= 2;
+    }
+}
+
+fn survey_by(points: &[Point], index: &PointIndex<3>, count: usize) -> Survey {
     let found: Vec<(f64, f64)> = points
         .par_iter()
-        .step_by(points.len().div_ceil(SURVEYS).max(1))
+        .step_by(points.len().div_ceil(SURVEYS))
         .map(|x| {
-            let hits = index.nearest_n(&x.coords.into(), SURVEYED + 1);
+            let hits = index.nearest_n(&x.coords.into(), count + 1);
             let fit = local(x, &places(points, &hits));
             (side(&hits), fit.spread)
         })
         .collect();
     Survey {
+        count,
         spacing: median(found.iter().map(|f| f.0)),
         noise: median(found.iter().map(|f| f.1)),
     }
@@ -45,13 +64,14 @@ pub(super) fn survey(points: &[Point], index: &PointIndex<3>) -> Survey {
 /// Side of the square that a point stands for, by the distance of the last of its neighbours.
 fn side(hits: &[(u32, f64)]) -> f64 {
     let reach = hits.last().map_or(0.0, |h| h.1);
-    (std::f64::consts::PI * reach / hits.len().max(2) as f64).sqrt()
+    (PI * reach / hits.len().max(2) as f64).sqrt()
 }
 
 fn places(points: &[Point], hits: &[(u32, f64)]) -> Vec<Point> {
     hits.iter().map(|h| points[h.0 as usize]).collect()
 }
 
+/// The middle one of `values`; 0 of none.
 pub(super) fn median(values: impl Iterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.collect();
     let middle = values.len() / 2;
@@ -72,13 +92,13 @@ pub(super) fn locals(
     kept.par_iter()
         .map(|&i| {
             let x = &points[i as usize];
-            let near = index.nearest_n(&x.coords.into(), FEWEST);
+            let near = index.nearest_n(&x.coords.into(), survey.count);
             let mut count = enough(survey.noise, side(&near));
             loop {
                 let hits = index.nearest_n(&x.coords.into(), count);
                 let fit = local(x, &places(points, &hits));
                 // A scanner's lines may lie closer along than across.
-                if !fit.in_line || count >= 4 * MOST || hits.len() == points.len() {
+                if !fit.in_line || count >= MOST || hits.len() == points.len() {
                     return fit;
                 }
                 count *= 2;
@@ -88,8 +108,10 @@ pub(super) fn locals(
 }
 
 /// How many neighbours steady a normal: a plane over k of them reaches r = spacing sqrt(k / pi), and
-/// noise turns it by about 2 noise / (r sqrt k).
+/// noise turns it by about 2 noise / (r sqrt k); and r is three times the noise, so that it is the
+/// surface that they spread along.
 fn enough(noise: f64, spacing: f64) -> usize {
-    let steady = 2.0 * std::f64::consts::PI.sqrt() * noise / (WANTED * spacing);
+    let thick = noise / spacing;
+    let steady = (2.0 * PI.sqrt() * thick / WANTED).max(9.0 * PI * thick * thick);
     (steady.ceil() as usize).clamp(FEWEST, MOST)
 }

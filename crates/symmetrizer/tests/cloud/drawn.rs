@@ -1,21 +1,20 @@
-//! Point clouds: normals, their side, discs, and the symmetries found on them.
-
-mod common;
+//! Points drawn from shapes whose normals are known.
 
 use std::f64::consts::TAU;
 
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-use common::data;
 use symmetrizer::geom::{Point, Vector};
 use symmetrizer::shape::cloud::Discs;
-use symmetrizer::shape::io;
+
+/// A point of a shape with its outward normal; sometimes none, so that points spread evenly.
+pub type Drawn = Option<(Vector, Vector)>;
 
 /// Points with the true outward normals.
-struct Sampled {
-    points: Vec<Point>,
-    normals: Vec<Vector>,
+pub struct Sampled {
+    pub points: Vec<Point>,
+    pub normals: Vec<Vector>,
 }
 
 /// A number from the standard normal distribution (Box and Muller).
@@ -24,7 +23,7 @@ fn gauss(rng: &mut Pcg64) -> f64 {
     (-2.0 * (1.0 - u).ln()).sqrt() * (TAU * v).cos()
 }
 
-fn diagonal(points: &[Point]) -> f64 {
+pub fn diagonal(points: &[Point]) -> f64 {
     let low = points.iter().fold(points[0], |l, p| l.inf(p));
     let high = points.iter().fold(points[0], |h, p| h.sup(p));
     (high - low).norm()
@@ -33,12 +32,7 @@ fn diagonal(points: &[Point]) -> f64 {
 impl Sampled {
     /// `count` points that `draw` returns, half of those with x > 0 left out where `uneven`, moved
     /// by a standard deviation of `noise` times the diagonal.
-    fn new(
-        count: usize,
-        noise: f64,
-        uneven: bool,
-        draw: impl Fn(&mut Pcg64) -> Option<(Vector, Vector)>,
-    ) -> Self {
+    pub fn new(count: usize, noise: f64, uneven: bool, draw: impl Fn(&mut Pcg64) -> Drawn) -> Self {
         let mut rng = Pcg64::seed_from_u64(7);
         let mut sampled = Self {
             points: Vec::new(),
@@ -62,12 +56,12 @@ impl Sampled {
     }
 }
 
-fn sphere(rng: &mut Pcg64) -> Option<(Vector, Vector)> {
+pub fn sphere(rng: &mut Pcg64) -> Drawn {
     let n = Vector::from_fn(|_, _| gauss(rng)).normalize();
     Some((n, n))
 }
 
-fn torus(rng: &mut Pcg64) -> Option<(Vector, Vector)> {
+pub fn torus(rng: &mut Pcg64) -> Drawn {
     let (u, v) = (TAU * rng.random::<f64>(), TAU * rng.random::<f64>());
     let r = 1.0 + 0.4 * v.cos();
     let n = Vector::new(v.cos() * u.cos(), v.cos() * u.sin(), v.sin());
@@ -76,7 +70,7 @@ fn torus(rng: &mut Pcg64) -> Option<(Vector, Vector)> {
 }
 
 /// A box of the given sides.
-fn cuboid(sides: Vector) -> impl Fn(&mut Pcg64) -> Option<(Vector, Vector)> {
+pub fn cuboid(sides: Vector) -> impl Fn(&mut Pcg64) -> Drawn {
     move |rng| {
         let area = |k: usize| sides[(k + 1) % 3] * sides[(k + 2) % 3];
         let mut at = rng.random::<f64>() * (area(0) + area(1) + area(2));
@@ -94,7 +88,7 @@ fn cuboid(sides: Vector) -> impl Fn(&mut Pcg64) -> Option<(Vector, Vector)> {
 }
 
 /// A prism over a star of five rounded points, with sharp rims.
-fn star(rng: &mut Pcg64) -> Option<(Vector, Vector)> {
+pub fn star(rng: &mut Pcg64) -> Drawn {
     let t = TAU * rng.random::<f64>();
     let r = 1.0 + 0.3 * (5.0 * t).cos();
     let slope = -1.5 * (5.0 * t).sin();
@@ -114,7 +108,7 @@ fn star(rng: &mut Pcg64) -> Option<(Vector, Vector)> {
 
 /// Share of the normals on the right side, and the median and 90th percentile of the angle between the
 /// lines of found and true normals, degrees.
-fn judged(discs: &Discs, truth: &[Vector]) -> [f64; 3] {
+pub fn judged(discs: &Discs, truth: &[Vector]) -> [f64; 3] {
     let pairs = || discs.normals.iter().zip(&discs.document);
     let cosines: Vec<f64> = pairs().map(|(n, &i)| n.dot(&truth[i as usize])).collect();
     let mut angles: Vec<f64> = cosines
@@ -127,66 +121,4 @@ fn judged(discs: &Discs, truth: &[Vector]) -> [f64; 3] {
     let right = told.iter().filter(|c| ***c > 0.0).count();
     let at = |share: f64| angles[(share * angles.len() as f64) as usize];
     [right as f64 / told.len() as f64, at(0.5), at(0.9)]
-}
-
-#[test]
-fn explore() {
-    type Draw = Box<dyn Fn(&mut Pcg64) -> Option<(Vector, Vector)>>;
-    let shapes: [(&str, Draw, f64); 5] = [
-        ("sphere", Box::new(sphere), 4.0 * 3.14159),
-        ("torus", Box::new(torus), 4.0 * 9.8696 * 0.4),
-        ("box", Box::new(cuboid(Vector::new(1.0, 0.7, 0.5))), 3.1),
-        ("slab", Box::new(cuboid(Vector::new(1.0, 1.0, 0.08))), 2.32),
-        ("star", Box::new(star), 1.0),
-    ];
-    for (name, draw, area) in &shapes {
-        for count in [1000, 4000] {
-            for noise in [0.0, 0.005, 0.01] {
-                for uneven in [false, true] {
-                    let s = Sampled::new(count, noise, uneven, draw);
-                    let d = Discs::new(&s.points, None).unwrap();
-                    let [right, mid, p90] = judged(&d, &s.normals);
-                    let total: f64 = d.areas.iter().sum();
-                    println!(
-                        "{name} {count} noise {noise} uneven {uneven}: right {right:.3} angle {mid:.1} {p90:.1} area {:.2} noise {:.4} spacing {:.4}",
-                        total / area,
-                        d.noise / diagonal(&s.points),
-                        d.spacing / diagonal(&s.points)
-                    );
-                }
-            }
-        }
-    }
-}
-
-#[test]
-fn explore_shrec() {
-    for i in 0..24 {
-        let Some(path) = data(&format!("truth/shrec_style/points{i}.txt")) else {
-            return;
-        };
-        let points = io::read(&path).unwrap().mesh.positions;
-        let sym =
-            std::fs::read_to_string(path.with_file_name(format!("points{i}_sym.txt"))).unwrap();
-        let row: Vec<f64> = sym
-            .lines()
-            .nth(1)
-            .unwrap()
-            .split_whitespace()
-            .map(|w| w.parse().unwrap())
-            .collect();
-        let center = Point::new(row[3], row[4], row[5]);
-        let d = Discs::new(&points, None).unwrap();
-        let mut wrong = 0;
-        for (x, n) in d.points.iter().zip(&d.normals) {
-            wrong += usize::from((x - center).dot(n) < 0.0);
-        }
-        println!(
-            "points{i}: {} outward {:.3} noise {:.4} spacing {:.4}",
-            points.len(),
-            1.0 - wrong as f64 / d.points.len() as f64,
-            d.noise / diagonal(&points),
-            d.spacing / diagonal(&points)
-        );
-    }
 }
