@@ -1,10 +1,16 @@
 //! Which points of a cloud stand for the others.
 
-use crate::geom::Point;
+use rand::SeedableRng;
+use rand::seq::index::sample;
+use rand_pcg::Pcg64;
+
+use crate::geom::{Point, Vector};
 use crate::shape::mesh::is_finite;
 
 /// Thinning ends with at least this share of the points wanted, ...
 const ENOUGH: f64 = 0.7;
+/// aims at this one, ...
+const AIM: f64 = 0.85;
 /// ... or after this many sizes of the cells.
 const SIZES: usize = 12;
 
@@ -43,25 +49,37 @@ pub(super) fn distinct(points: &[Point]) -> (Vec<u32>, Vec<Option<u32>>) {
     (places, number)
 }
 
-/// Indices of those of `points` that are kept, increasing: all, or where they are more than `most` the one
-/// nearest to the middle of each cell of a grid that leaves about `most`; and for each point the
-/// number of the kept one of its cell.
-pub(super) fn thin(points: &[Point], most: usize) -> (Vec<u32>, Vec<u32>) {
-    let all = || (0..points.len() as u32).collect::<Vec<_>>();
+/// At most `most` of `points`, drawn at random from all, so that they scatter as all do.
+pub(super) fn drawn(points: &[Point], most: usize) -> Vec<Point> {
     if points.len() <= most {
+        return points.to_vec();
+    }
+    let mut rng = Pcg64::seed_from_u64(0);
+    let mut chosen = sample(&mut rng, points.len(), most).into_vec();
+    chosen.sort_unstable();
+    chosen.into_iter().map(|i| points[i]).collect()
+}
+
+/// Indices of those of `points` that are kept, increasing: all where they are at most `most` and
+/// `coarse` is 0, or else one of each cell of a grid of at least the size `coarse` that leaves about
+/// `most` or fewer; and for each point the number of the kept one of its cell.
+pub(super) fn thin(points: &[Point], most: usize, coarse: f64) -> (Vec<u32>, Vec<u32>) {
+    let all = || (0..points.len() as u32).collect::<Vec<_>>();
+    if points.len() <= most && coarse <= 0.0 {
         return (all(), all());
     }
     let low = points.iter().fold(points[0], |low, p| low.inf(p));
     let high = points.iter().fold(points[0], |high, p| high.sup(p));
-    let wanted = |count: usize| (ENOUGH * most as f64..=most as f64).contains(&(count as f64));
-    let mut size = (high - low).norm() / (most as f64).sqrt();
+    let mut size = coarse.max((high - low).norm() / (most as f64).sqrt());
     let mut cells = Cells::new(points, low, size);
     for _ in 0..SIZES {
-        if wanted(cells.count()) {
+        let share = cells.count() as f64 / most as f64;
+        let wanted = (ENOUGH..=1.0).contains(&share) || (share < ENOUGH && size <= coarse);
+        if wanted {
             break;
         }
         // Cells that a surface meets grow fewer with the square of their size.
-        size *= (cells.count() as f64 / (0.85 * most as f64)).sqrt();
+        size = coarse.max(size * (share / AIM).sqrt());
         cells = Cells::new(points, low, size);
     }
     cells.kept(points)
@@ -69,8 +87,6 @@ pub(super) fn thin(points: &[Point], most: usize) -> (Vec<u32>, Vec<u32>) {
 
 /// Points sorted by the cell of a grid that they are in.
 struct Cells {
-    low: Point,
-    size: f64,
     order: Vec<([u32; 3], u32)>,
 }
 
@@ -80,7 +96,7 @@ impl Cells {
         let mut order: Vec<([u32; 3], u32)> =
             (0..).zip(points).map(|(i, p)| (cell(p), i)).collect();
         order.sort_unstable();
-        Self { low, size, order }
+        Self { order }
     }
 
     fn each(&self) -> impl Iterator<Item = &[([u32; 3], u32)]> {
@@ -94,8 +110,8 @@ impl Cells {
     fn kept(&self, points: &[Point]) -> (Vec<u32>, Vec<u32>) {
         let mut chosen = vec![0; points.len()];
         for cell in self.each() {
-            let middle = self.low.coords
-                + crate::geom::Vector::from(cell[0].0.map(|c| f64::from(c) + 0.5)) * self.size;
+            let places = cell.iter().map(|c| points[c.1 as usize].coords);
+            let middle = places.sum::<Vector>() / cell.len() as f64;
             let gap = |i: u32| (points[i as usize].coords - middle).norm_squared();
             let nearer = |a: u32, b: u32| if gap(b) < gap(a) { b } else { a };
             let best = cell.iter().map(|c| c.1).fold(cell[0].1, nearer);

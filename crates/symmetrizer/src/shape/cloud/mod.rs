@@ -12,11 +12,11 @@ mod normals;
 mod orient;
 
 use crate::error::{Error, Result};
-use crate::geom::{Matrix3, Point, PointIndex, Vector, sorted_eigen};
+use crate::geom::{Matrix3, Point, Vector, sorted_eigen};
 
 use discs::{areas, squares};
-use kept::{distinct, thin};
-use normals::{Survey, locals, survey};
+use kept::{distinct, drawn, thin};
+use normals::{Fitted, locals};
 use orient::{Sided, disagreement, orient};
 
 pub(in crate::shape) use discs::CORNERS;
@@ -24,9 +24,9 @@ pub(in crate::shape) use discs::CORNERS;
 /// Points in different places that a cloud must have: fewer show no curvature.
 pub const FEWEST: usize = 50;
 
-/// Points that become discs at the most: their spacing is then about half a percent of L, a quarter of
-/// the distance within which detection calls two surfaces the same.
-const MOST_DISCS: usize = 30_000;
+/// Points that become discs at the most: their spacing is then about 0.6 % of L, a third of the
+/// distance within which detection calls two surfaces the same.
+const MOST_DISCS: usize = 20_000;
 /// Points that the discs' normals and the noise are judged by at the most.
 const MOST_FITTED: usize = 100_000;
 /// Ratio of the middle to the largest variance of all points below which they lie on a line.
@@ -78,37 +78,33 @@ impl Discs {
             .iter()
             .map(|p| Point::from((p - center) / scale))
             .collect();
-        // What the discs' normals are fitted to, and what becomes a disc.
-        let (fitted, cell) = thin(&unit, MOST_FITTED);
-        let at = |i: &u32| unit[*i as usize];
-        let fitted_points: Vec<Point> = fitted.iter().map(at).collect();
-        let (kept, wide_cell) = thin(&fitted_points, MOST_DISCS);
-        let (mut discs, trust) = Self::over(&fitted_points, &kept);
-        let place = |&k: &u32| places[fitted[k as usize] as usize];
+        let fitted = Fitted::new(drawn(&unit, MOST_FITTED));
+        let (kept, cell) = thin(&unit, MOST_DISCS, fitted.coarse());
+        let (mut discs, trust) = Self::over(&fitted, kept.iter().map(|&k| unit[k as usize]));
+        let place = |&k: &u32| places[k as usize];
         let given = given.and_then(|given| usable(kept.iter().map(|k| given[place(k) as usize])));
         discs.face(given, &trust);
         discs.areas = areas(&discs.points, &discs.normals);
         discs.document = kept.iter().map(place).collect();
-        let disc = |place: Option<u32>| place.map(|p| wide_cell[cell[p as usize] as usize]);
+        let disc = |place: Option<u32>| place.map(|p| cell[p as usize]);
         discs.disc_of_document = number.into_iter().map(disc).collect();
         discs.scale(&center, scale);
         Ok(discs)
     }
 
-    /// Discs at the points numbered in `kept`, with normals to either side, and how far these can be
-    /// trusted: not where the points scatter more than by noise, as about a sharp rim.
-    fn over(points: &[Point], kept: &[u32]) -> (Self, Vec<f64>) {
-        let coordinates: Vec<[f64; 3]> = points.iter().map(|p| p.coords.into()).collect();
-        let index = PointIndex::new(&coordinates);
-        let found: Survey = survey(points, &index);
-        let locals = locals(points, kept, &index, &found);
-        let moves = found.noise > NOISY * found.spacing;
-        let place =
-            |(l, &k): (&local::Local, &u32)| if moves { l.foot } else { points[k as usize] };
+    /// Discs at the points `at`, with normals to either side, and how far these can be trusted: not
+    /// where the points scatter more than by noise, as about a sharp rim.
+    fn over(fitted: &Fitted, at: impl Iterator<Item = Point>) -> (Self, Vec<f64>) {
+        let mut points: Vec<Point> = at.collect();
+        let found = fitted.survey;
+        let locals = locals(fitted, &points);
+        if found.noise > NOISY * found.spacing {
+            points = locals.iter().map(|l| l.foot).collect();
+        }
         let usual = 1.5 * found.noise + SCATTER * found.spacing;
         let trust = locals.iter().map(|l| (usual / l.spread).min(1.0)).collect();
         let discs = Self {
-            points: locals.iter().zip(kept).map(place).collect(),
+            points,
             normals: locals.iter().map(|l| l.normal).collect(),
             areas: Vec::new(),
             document: Vec::new(),

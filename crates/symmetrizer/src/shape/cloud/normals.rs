@@ -31,8 +31,41 @@ pub(super) struct Survey {
     pub noise: f64,
 }
 
+/// The points that normals are fitted to.
+pub(super) struct Fitted {
+    points: Vec<Point>,
+    index: PointIndex<3>,
+    /// What they are like.
+    pub survey: Survey,
+}
+
+impl Fitted {
+    /// Surveys `points`.
+    pub fn new(points: Vec<Point>) -> Self {
+        let places: Vec<[f64; 3]> = points.iter().map(|p| p.coords.into()).collect();
+        let index = PointIndex::new(&places);
+        Self {
+            survey: survey(&points, &index),
+            points,
+            index,
+        }
+    }
+
+    /// Size of the cells of which one point each is enough: 0, or where the points lie in many layers
+    /// within the noise, so much that a cell holds most of them.
+    pub fn coarse(&self) -> f64 {
+        let Survey { noise, spacing, .. } = self.survey;
+        if noise > spacing { 1.5 * noise } else { 0.0 }
+    }
+
+    /// So many of the points next to `x`, the nearest first, with their squared distances.
+    fn near(&self, x: &Point, count: usize) -> Vec<(u32, f64)> {
+        self.index.nearest_n(&x.coords.into(), count)
+    }
+}
+
 /// Spacing and noise of `points`.
-pub(super) fn survey(points: &[Point], index: &PointIndex<3>) -> Survey {
+fn survey(points: &[Point], index: &PointIndex<3>) -> Survey {
     let mut count = SURVEYED;
     loop {
         let found = survey_by(points, index, count);
@@ -81,24 +114,18 @@ pub(super) fn median(values: impl Iterator<Item = f64>) -> f64 {
     *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
-/// The surface next to each point numbered in `kept`, by so many of all `points` around it that the
+/// The surface next to each of the points `at`, by so many of the `fitted` ones around it that the
 /// noise turns the normal by about [`WANTED`] at the most.
-pub(super) fn locals(
-    points: &[Point],
-    kept: &[u32],
-    index: &PointIndex<3>,
-    survey: &Survey,
-) -> Vec<Local> {
-    kept.par_iter()
-        .map(|&i| {
-            let x = &points[i as usize];
-            let near = index.nearest_n(&x.coords.into(), survey.count);
-            let mut count = enough(survey.noise, side(&near));
+pub(super) fn locals(fitted: &Fitted, at: &[Point]) -> Vec<Local> {
+    let survey = &fitted.survey;
+    at.par_iter()
+        .map(|x| {
+            let mut count = enough(survey.noise, side(&fitted.near(x, survey.count)));
             loop {
-                let hits = index.nearest_n(&x.coords.into(), count);
-                let fit = local(x, &places(points, &hits));
+                let hits = fitted.near(x, count);
+                let fit = local(x, &places(&fitted.points, &hits));
                 // A scanner's lines may lie closer along than across.
-                if !fit.in_line || count >= MOST || hits.len() == points.len() {
+                if !fit.in_line || count >= MOST || hits.len() == fitted.points.len() {
                     return fit;
                 }
                 count *= 2;
