@@ -135,10 +135,10 @@ pub(super) fn locals(fitted: &Fitted, at: &[Point]) -> Vec<Local> {
 }
 
 /// How many neighbours steady a normal: a plane over k of them reaches r = spacing sqrt(k / pi), and
-/// noise turns it by about 2 noise / (r sqrt k); and r is three times the noise, so that it is the
+/// noise turns it by about 2 noise / (r sqrt k); and r is 2.5 times the noise, so that it is the
 /// surface that they spread along.
 fn enough(noise: f64, spacing: f64) -> usize {
     let thick = noise / spacing;
-    let steady = (2.0 * PI.sqrt() * thick / WANTED).max(9.0 * PI * thick * thick);
+    let steady = (2.0 * PI.sqrt() * thick / WANTED).max(6.0 * PI * thick * thick);
     (steady.ceil() as usize).clamp(FEWEST, MOST)
 }
