@@ -55,7 +55,7 @@ impl Fitted {
     /// within the noise, so much that a cell holds most of them.
     pub fn coarse(&self) -> f64 {
         let Survey { noise, spacing, .. } = self.survey;
-        if noise > spacing { 1.5 * noise } else { 0.0 }
+        if noise > spacing { 2.0 * noise } else { 0.0 }
     }
 
     /// So many of the points next to `x`, the nearest first, with their squared distances.
