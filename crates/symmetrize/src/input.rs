@@ -8,7 +8,7 @@ use symmetrizer::shape::{Document, io};
 use symmetrizer::{Context, Error, Mesh, Result};
 
 /// Help for inputs.
-pub const HELP: &str = "Shape file (obj, ply, off, stl, gltf, glb, 3mf, xyz), or model:creature or model:creature-at-rest, which are generated";
+pub const HELP: &str = "Shape file (obj, ply, off, stl, gltf, glb, 3mf, xyz, txt), or model:creature or model:creature-at-rest, which are generated";
 
 /// The argument INPUT.
 #[derive(Debug, Clone, PartialEq)]

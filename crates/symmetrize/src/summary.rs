@@ -15,10 +15,16 @@ const REFUSED: usize = 8;
 /// A line about a shape.
 pub fn shape(shape: &ShapeReport) -> String {
     let name = shape.file.as_deref().unwrap_or("the shape");
+    let parts = match shape.faces {
+        0 => format!("{} points", grouped(shape.vertices)),
+        faces => format!(
+            "{} vertices, {} triangles",
+            grouped(shape.vertices),
+            grouped(faces)
+        ),
+    };
     format!(
-        "{name}: {} vertices, {} triangles, bounding-box diagonal D = {}, scale L = {}\n",
-        grouped(shape.vertices),
-        grouped(shape.faces),
+        "{name}: {parts}, bounding-box diagonal D = {}, scale L = {}\n",
         short(shape.diagonal),
         short(shape.scale)
     )

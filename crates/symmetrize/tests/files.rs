@@ -20,7 +20,7 @@ enum Comes {
 
 use Comes::{Asymmetric, Out, Refused};
 
-const POINTS: Comes = Refused("but no faces (a point cloud must be meshed first)");
+const POINTS: Comes = Refused("but no faces (symmetries of a point cloud can be detected only");
 
 const DIRTY: [(&str, Comes); 69] = [
     (

@@ -47,18 +47,46 @@ pub struct Symmetrized {
     pub report: Report,
 }
 
-/// Finds the symmetries of `mesh`.
+/// Finds the symmetries of `mesh`, or of the cloud of its vertices where it has no faces.
 ///
 /// # Errors
 /// [`crate::Error::Input`] for a mesh that cannot be worked on, [`crate::Error::Params`],
 /// [`crate::Error::Cancelled`].
 pub fn detect_in(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result<Detected> {
     params.check()?;
-    found_in(mesh, &params.detect(), ctx)
+    let working = match mesh.polygons.is_empty() {
+        true => ctx.stage("discs", |_| Working::of_cloud(mesh, None))?,
+        false => Working::new(mesh)?,
+    };
+    find_in(working, mesh, &params.detect(), ctx)
 }
 
-fn found_in(mesh: &Mesh, params: &DetectParams, ctx: &mut Context<'_>) -> Result<Detected> {
-    let working = Working::new(mesh)?;
+/// Finds the symmetries of the mesh of `document`, as [`detect_in`] does; of a cloud with the normals
+/// that the document has.
+///
+/// # Errors
+/// As for [`detect_in`].
+pub fn detect_document(
+    document: &Document,
+    params: &Params,
+    ctx: &mut Context<'_>,
+) -> Result<Detected> {
+    let mesh = &document.mesh;
+    let normals = document.vertex_normals();
+    if !mesh.polygons.is_empty() || normals.is_none() {
+        return detect_in(mesh, params, ctx);
+    }
+    params.check()?;
+    let working = ctx.stage("discs", |_| Working::of_cloud(mesh, normals.as_deref()))?;
+    find_in(working, mesh, &params.detect(), ctx)
+}
+
+fn find_in(
+    working: Working,
+    mesh: &Mesh,
+    params: &DetectParams,
+    ctx: &mut Context<'_>,
+) -> Result<Detected> {
     warn_of(&working.mended, ctx);
     ctx.stage("detect", |ctx| {
         Detected::find(working, mesh.diagonal(), params, ctx)
@@ -82,9 +110,10 @@ fn to_enhance(params: &Params) -> DetectParams {
 /// # Errors
 /// Those of [`detect_in`]; [`crate::Error::Numerical`].
 pub fn symmetrize(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result<Symmetrized> {
+    mesh.check()?;
     params.check()?;
     let detect = to_enhance(params);
-    let before = found_in(mesh, &detect, ctx)?;
+    let before = find_in(Working::new(mesh)?, mesh, &detect, ctx)?;
     let measured = ctx.stage("measure", |ctx| before.asymmetry(&[], ctx))?;
     let settings = Settings {
         detect: &detect,

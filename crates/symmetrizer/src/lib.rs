@@ -25,7 +25,9 @@ pub mod transform;
 
 pub use context::{CancelToken, Context, Event};
 pub use error::{Error, Result, Warning};
-pub use job::{Detected, Measured, Symmetrized, detect_in, measure_in, symmetrize};
+pub use job::{
+    Detected, Measured, Symmetrized, detect_document, detect_in, measure_in, symmetrize,
+};
 pub use optimize::schedule::Outcome;
 pub use params::Params;
 pub use report::Report;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use symmetrizer::job::pictures;
 use symmetrizer::report::DetectReport;
-use symmetrizer::{Result, detect_in};
+use symmetrizer::{Result, detect_document};
 
 use crate::Answer;
 use crate::files::{PictureFile, ReportFile, check_distinct, commit};
@@ -37,14 +37,14 @@ pub fn detect(args: &DetectArgs, desk: &Desk) -> Result<Answer> {
     let report_file = report.map(ReportFile::reserve).transpose()?;
     let picture_file = picture.map(PictureFile::reserve).transpose()?;
     let mut ctx = desk.context();
-    let mesh = args.input.read(&mut ctx)?.mesh;
-    let found = detect_in(&mesh, &params, &mut ctx).map_err(|e| args.input.blame(e))?;
+    let document = args.input.read(&mut ctx)?;
+    let found = detect_document(&document, &params, &mut ctx).map_err(|e| args.input.blame(e))?;
     let mut complete = Vec::new();
     if let Some(file) = picture_file {
         let draw = || file.write(&pictures::views(&found, &args.input.title()));
         complete.push(ctx.stage("picture", |_| draw())?);
     }
-    let mut report = DetectReport::new(&mesh, &found, &params, &ctx);
+    let mut report = DetectReport::new(&document.mesh, &found, &params, &ctx);
     report.input.shape.file = Some(args.input.name());
     if let Some(file) = report_file {
         report.run = Some(desk.progress.report());

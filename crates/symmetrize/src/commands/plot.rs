@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use symmetrizer::job::pictures;
-use symmetrizer::{Result, detect_in};
+use symmetrizer::{Result, detect_document};
 
 use crate::Answer;
 use crate::files::{PictureFile, check_distinct, commit};
@@ -34,8 +34,8 @@ pub fn plot(args: &PlotArgs, desk: &Desk) -> Result<Answer> {
     check_distinct(args.input.path(), &[], &[&args.output])?;
     let file = PictureFile::reserve(&args.output)?;
     let mut ctx = desk.context();
-    let mesh = args.input.read(&mut ctx)?.mesh;
-    let found = detect_in(&mesh, &params, &mut ctx).map_err(|e| args.input.blame(e))?;
+    let document = args.input.read(&mut ctx)?;
+    let found = detect_document(&document, &params, &mut ctx).map_err(|e| args.input.blame(e))?;
     let title = format!(
         "{}: {} votes, {} symmetries",
         args.input.title(),

@@ -1,4 +1,6 @@
-//! Range queries among fixed points: kiddo's k-d tree with answers in one order.
+//! Range and neighbour queries among fixed points: kiddo's k-d tree with answers in one order.
+
+use std::num::NonZero;
 
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 
@@ -43,5 +45,22 @@ impl<const K: usize> PointIndex<K> {
             .nearest_one::<SquaredEuclidean<f64>>()
             .execute();
         Some((hit.item, hit.distance))
+    }
+
+    /// Indices and squared distances of the `count` points nearest to `x`, nearest first, those at
+    /// one distance by index; fewer where there are fewer.
+    pub fn nearest_n(&self, x: &[f64; K], count: usize) -> Vec<(u32, f64)> {
+        let (Some(tree), Some(count)) = (&self.tree, NonZero::new(count)) else {
+            return Vec::new();
+        };
+        let mut found: Vec<(u32, f64)> = tree
+            .query(x)
+            .nearest_n::<SquaredEuclidean<f64>>(count)
+            .execute()
+            .iter()
+            .map(|hit| (hit.item, hit.distance))
+            .collect();
+        found.sort_unstable_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+        found
     }
 }

@@ -20,8 +20,15 @@ pub struct FaceSamples {
 }
 
 impl FaceSamples {
-    /// The samples nearest to the triangles of what was detected.
+    /// The samples nearest to the triangles of what was detected; of none in a cloud, the document of
+    /// which has no triangles.
     pub fn of(found: &Detected) -> Self {
+        if found.working.cloud.is_some() {
+            return Self {
+                nearest: Vec::new(),
+                centroids: Vec::new(),
+            };
+        }
         Self::new(&found.working.surface, &found.detection.samples)
     }
 

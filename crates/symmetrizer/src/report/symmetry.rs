@@ -67,20 +67,11 @@ impl RefusalReport {
 
 /// All symmetries that were `found`.
 pub fn all(found: &Detected, faces: &FaceSamples) -> Vec<SymmetryReport> {
-    let documents = first_documents(&found.working);
     let symmetries = &found.detection.symmetries;
-    symmetries
-        .iter()
-        .map(|s| report(s, found, faces, &documents))
-        .collect()
+    symmetries.iter().map(|s| report(s, found, faces)).collect()
 }
 
-fn report(
-    symmetry: &Symmetry,
-    found: &Detected,
-    faces: &FaceSamples,
-    documents: &[u32],
-) -> SymmetryReport {
+fn report(symmetry: &Symmetry, found: &Detected, faces: &FaceSamples) -> SymmetryReport {
     let working = &found.working;
     let samples = &found.detection.samples.list;
     let plane = PlaneReport::new(&symmetry.plane(), &working.normalization);
@@ -104,7 +95,7 @@ fn report(
         area_fraction: symmetry.area_fraction,
         patch_faces: numbered(patch),
         image_faces: numbered(image),
-        pairs: pairs(symmetry, found, documents),
+        pairs: pairs(symmetry, found),
     }
 }
 
@@ -124,8 +115,9 @@ fn matrix(t: &Isometry, normalization: &Normalization) -> [[f64; 4]; 4] {
 }
 
 /// The document vertices next to each pair's ends, that of the patch's side first.
-fn pairs(symmetry: &Symmetry, found: &Detected, documents: &[u32]) -> Vec<[u32; 2]> {
+fn pairs(symmetry: &Symmetry, found: &Detected) -> Vec<[u32; 2]> {
     let samples = &found.detection.samples.list;
+    let documents = &found.working.document_of_vertex;
     let vertex = |at: &SurfacePoint| documents[nearest_corner(&found.working, at) as usize];
     let mut pairs: Vec<[u32; 2]> = symmetry
         .pairs
@@ -154,16 +146,4 @@ fn nearest_corner(working: &Working, at: &SurfacePoint) -> u32 {
     let [a, b, c] = corners;
     let nearer = |u: u32, v: u32| if gap(v) < gap(u) { v } else { u };
     nearer(nearer(a, b), c)
-}
-
-/// For each working vertex the first document vertex it stands for.
-fn first_documents(working: &Working) -> Vec<u32> {
-    let mut first = vec![u32::MAX; working.surface.positions.len()];
-    for (document, vertex) in working.vertex_of_document.iter().enumerate() {
-        if let Some(v) = vertex {
-            let slot = &mut first[*v as usize];
-            *slot = (*slot).min(document as u32);
-        }
-    }
-    first
 }

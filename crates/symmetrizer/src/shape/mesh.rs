@@ -103,7 +103,7 @@ impl Mesh {
                     "the mesh has {} vertices but no faces",
                     self.positions.len()
                 ),
-                "a point cloud must be meshed first",
+                "symmetries of a point cloud can be detected only; for anything else, mesh it first",
             ));
         }
         self.check_corners()
@@ -154,19 +154,23 @@ impl Mesh {
         triangulate(&corners)
     }
 
-    /// The bounding-box diagonal D of the finite vertices that faces use, model units; for reporting only,
-    /// because it changes when the shape is rotated.
+    /// The bounding-box diagonal D of the finite vertices that faces use, or of all finite ones where there
+    /// are no faces, model units; for reporting only, because it changes when the shape is rotated.
     pub fn diagonal(&self) -> f64 {
         let mut low = Point::from([f64::INFINITY; 3]);
         let mut high = Point::from([f64::NEG_INFINITY; 3]);
-        let used = self.polygons.iter().flatten();
-        for p in used.filter_map(|&v| self.positions.get(v as usize)) {
-            if !is_finite(p) {
-                continue;
+        let mut extend = |p: &Point| {
+            if is_finite(p) {
+                low = low.inf(p);
+                high = high.sup(p);
             }
-            low = low.inf(p);
-            high = high.sup(p);
+        };
+        if self.polygons.is_empty() {
+            self.positions.iter().for_each(&mut extend);
         }
+        let used = self.polygons.iter().flatten();
+        used.filter_map(|&v| self.positions.get(v as usize))
+            .for_each(&mut extend);
         if low.x > high.x {
             0.0
         } else {

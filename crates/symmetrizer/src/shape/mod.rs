@@ -2,6 +2,7 @@
 //! on, points on a surface, closest points, curvature, files, generated models.
 
 pub mod closest;
+pub mod cloud;
 pub mod crossings;
 pub mod curvature;
 pub mod document;

@@ -18,6 +18,7 @@ pub use layer::{Layer, MorphPart, NO_ROW, On, Role, Values};
 pub use names::NameList;
 pub use numbers::{Kind, Numbers};
 
+use crate::geom::Vector;
 use crate::shape::mesh::Mesh;
 
 /// A mesh and what its file says about it.
@@ -44,5 +45,15 @@ impl Document {
     /// The first layer of a role.
     pub fn layer(&self, on: On, role: Role) -> Option<&Layer> {
         self.layers.iter().find(|l| l.on == on && l.role == role)
+    }
+
+    /// The normals of the vertices, as the file has them; none unless every vertex has one.
+    pub fn vertex_normals(&self) -> Option<Vec<Vector>> {
+        let values = &self.layer(On::Vertex, Role::Normal)?.values;
+        let normal = |v: usize| {
+            let component = |k: usize| values.get(v, k);
+            Some(Vector::new(component(0)?, component(1)?, component(2)?))
+        };
+        (0..self.mesh.positions.len()).map(normal).collect()
     }
 }

@@ -73,12 +73,15 @@ impl Format {
         }
     }
 
-    /// The format that the extension of `path` names, in upper or lower case.
+    /// The format that the extension of `path` names, in upper or lower case; `txt` stands for XYZ.
     ///
     /// # Errors
     /// [`Error::Unsupported`] for any other extension or none; it lists the supported ones.
     pub fn of_path(path: &Path) -> Result<Self> {
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("");
+        if extension.eq_ignore_ascii_case("txt") {
+            return Ok(Self::Xyz);
+        }
         Self::ALL
             .into_iter()
             .find(|format| format.extension().eq_ignore_ascii_case(extension))

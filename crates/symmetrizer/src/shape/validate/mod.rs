@@ -26,7 +26,7 @@ pub use kind::{Kind, Severity};
 pub use size::Size;
 
 /// What the working surface had to leave out, and how it hangs together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Validation {
     /// Document vertices that no face uses.
     pub unused_vertices: usize,
@@ -51,6 +51,9 @@ pub struct Validation {
 impl Validation {
     /// The counts of `mesh`, of which `working` is the working surface.
     pub fn of(mesh: &Mesh, working: &Working) -> Self {
+        if working.cloud.is_some() {
+            return Self::of_cloud(mesh, working);
+        }
         let surface = &working.surface;
         let used = working.vertex_of_document.iter().flatten().count();
         let flat = surface.face_areas.iter().filter(|a| **a <= 0.0).count();
@@ -70,6 +73,16 @@ impl Validation {
                 .count(),
             boundary_edges,
             non_manifold_edges,
+        }
+    }
+
+    /// The counts of a cloud: of its points alone, because a disc's triangles and edges are not the
+    /// document's.
+    fn of_cloud(mesh: &Mesh, working: &Working) -> Self {
+        let used = working.vertex_of_document.iter().flatten().count();
+        Self {
+            unused_vertices: mesh.positions.len() - used,
+            ..Self::default()
         }
     }
 }

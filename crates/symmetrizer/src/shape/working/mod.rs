@@ -12,6 +12,7 @@ mod weld;
 
 use crate::error::Result;
 use crate::geom::{Point, Vector};
+use crate::shape::cloud::{CORNERS, Discs};
 use crate::shape::mesh::Mesh;
 use crate::shape::surface::Surface;
 
@@ -34,12 +35,25 @@ pub struct Working {
     pub normalization: Normalization,
     /// The working vertex of each document vertex; `None` for vertices that no face here uses.
     pub vertex_of_document: Vec<Option<u32>>,
-    /// The document's polygon of each working triangle.
+    /// The document vertex that each working vertex stands for, the first of several.
+    pub document_of_vertex: Vec<u32>,
+    /// The document's polygon of each working triangle; none in a cloud.
     pub polygon_of_face: Vec<u32>,
-    /// The index among [`Mesh::triangles`] of each working triangle.
+    /// The index among [`Mesh::triangles`] of each working triangle; none in a cloud.
     pub document_face: Vec<u32>,
     /// What differs from the document.
     pub mended: Mended,
+    /// Where the document is a cloud, how exactly its points tell the surface.
+    pub cloud: Option<CloudScale>,
+}
+
+/// How exactly the points of a cloud tell the surface, fractions of L.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CloudScale {
+    /// Standard deviation of the points' distance from the surface.
+    pub noise: f64,
+    /// Side of the square that a point stands for, median.
+    pub spacing: f64,
 }
 
 impl Working {
@@ -58,12 +72,46 @@ impl Working {
         let normalization = normalize(&welded, &triangles)?;
         let positions = welded.iter().map(|p| normalization.to_working(p)).collect();
         Ok(Self {
+            document_of_vertex: first_documents(&vertex_of_document, welded.len()),
             surface: Surface::new(positions, triangles.into()),
             normalization,
             vertex_of_document,
             polygon_of_face: faces.iter().map(|f| f.polygon).collect(),
             document_face: faces.iter().map(|f| f.index).collect(),
             mended,
+            cloud: None,
+        })
+    }
+
+    /// The working surface of a document without faces, discs at its points ([`Discs`]); `normals` are
+    /// those of the document, one for each vertex. The corners of a disc are working vertices; a
+    /// document vertex has the first corner of the disc that stands for it. No working triangle has a
+    /// polygon.
+    ///
+    /// # Errors
+    /// [`crate::Error::Input`] as for [`Discs::new`].
+    pub fn of_cloud(mesh: &Mesh, normals: Option<&[Vector]>) -> Result<Self> {
+        let discs = Discs::new(&mesh.positions, normals)?;
+        let (corners, triangles) = discs.triangles();
+        let normalization = normalize(&corners, &triangles)?;
+        let positions = corners
+            .iter()
+            .map(|p| normalization.to_working(p))
+            .collect();
+        let first_corner = |disc: Option<u32>| disc.map(|d| d * CORNERS as u32);
+        let vertex_of_document = discs.disc_of_document.into_iter().map(first_corner);
+        Ok(Self {
+            surface: Surface::new(positions, triangles.into()),
+            normalization,
+            vertex_of_document: vertex_of_document.collect(),
+            polygon_of_face: Vec::new(),
+            document_face: Vec::new(),
+            mended: Mended::default(),
+            cloud: Some(CloudScale {
+                noise: discs.noise / normalization.scale,
+                spacing: discs.spacing / normalization.scale,
+            }),
+            document_of_vertex: each_corner(&discs.document),
         })
     }
 
@@ -82,4 +130,21 @@ impl Working {
         }
         moved
     }
+}
+
+/// For each of `count` working vertices the first document vertex it stands for.
+fn first_documents(vertex_of_document: &[Option<u32>], count: usize) -> Vec<u32> {
+    let mut first = vec![u32::MAX; count];
+    for (document, vertex) in (0..).zip(vertex_of_document) {
+        if let Some(v) = vertex {
+            let slot = &mut first[*v as usize];
+            *slot = document.min(*slot);
+        }
+    }
+    first
+}
+
+/// The document vertex of each disc, once for each of its corners.
+fn each_corner(document: &[u32]) -> Vec<u32> {
+    document.iter().flat_map(|&d| [d; CORNERS]).collect()
 }
