@@ -12,6 +12,7 @@ use crate::error::Result;
 use crate::pair::{Pair, PairParams, mirror_pairs, rigid_pairs};
 use crate::patch::grow::Ground;
 use crate::patch::{PatchParams, Refusal, Symmetry};
+use crate::sample::samples::Describer;
 use crate::sample::{SampleParams, Samples, probes, sample};
 use crate::shape::{ClosestPoint, Surface};
 use crate::slip::Continuous;
@@ -95,6 +96,7 @@ pub fn detect(
         let count = if rigid { params.sample.count } else { 0 };
         Ok(probes(surface, &samples, count, &mut ctx.rng("probe")))
     })?;
+    let describer = Describer::new(surface);
     let mut clouds = Vec::new();
     let mut symmetries: Vec<Symmetry> = Vec::new();
     let mut refused = Vec::new();
@@ -114,6 +116,7 @@ pub fn detect(
             search::search(
                 &ground,
                 &space,
+                &describer,
                 clusters,
                 &mut cloud,
                 &symmetries,

@@ -8,7 +8,9 @@ use crate::context::Context;
 use crate::detect::{Cloud, DetectParams};
 use crate::error::Result;
 use crate::patch::grow::Ground;
+use crate::patch::likeness::confusion;
 use crate::patch::{Refusal, Symmetry, grow_patch};
+use crate::sample::samples::Describer;
 use crate::transform::space::Phi;
 use crate::transform::{Class, TransformSpace};
 
@@ -32,6 +34,7 @@ const MIN_VOTES: usize = 8;
 pub fn search(
     ground: &Ground<'_>,
     space: &TransformSpace,
+    describer: &Describer<'_>,
     clusters: Vec<Cluster>,
     cloud: &mut Cloud,
     known: &[Symmetry],
@@ -40,7 +43,9 @@ pub fn search(
 ) -> Result<Found> {
     match cloud.class {
         Class::Mirror => mirrors(ground, space, clusters, cloud, known, params, ctx),
-        _ => motions(ground, space, &clusters, cloud, known, params, ctx),
+        _ => motions(
+            ground, space, describer, &clusters, cloud, known, params, ctx,
+        ),
     }
 }
 
@@ -48,6 +53,7 @@ pub fn search(
 fn motions(
     ground: &Ground<'_>,
     space: &TransformSpace,
+    describer: &Describer<'_>,
     clusters: &[Cluster],
     cloud: &Cloud,
     known: &[Symmetry],
@@ -76,9 +82,24 @@ fn motions(
     let mut symmetries: Vec<Symmetry> = Vec::new();
     for s in good {
         let mut all = symmetries.iter().chain(known);
-        if !all.any(|k| is_same(k, &s, space, near)) {
-            symmetries.push(s);
+        if all.any(|k| is_same(k, &s, space, near)) {
+            continue;
         }
+        let confusion = confusion(ground, describer, &s);
+        if confusion > params.patch.max_confusion {
+            let near = ground.samples.list[s.pairs[0].sample as usize].position;
+            refused.push(Refusal {
+                class,
+                q_from_p: s.q_from_p,
+                height: s.height,
+                reason: format!(
+                    "partners look no more alike than many other places (confusion {confusion:.2})"
+                ),
+                near,
+            });
+            continue;
+        }
+        symmetries.push(Symmetry { confusion, ..s });
     }
     Ok(Found {
         symmetries,

@@ -34,6 +34,8 @@ pub struct PatchParams {
     /// merely passes by fills the tolerance evenly (rms .58) and looks like many places. 0.6, ours:
     /// true mirrors of the models reach .58, the arms of a chiral shape start at .61.
     pub max_doubt: f64,
+    /// Largest rms residual of a motion, in units of what its patch was grown to. 0.45, ours.
+    pub max_copy_doubt: f64,
     /// Smallest firmness with which a patch holds a rigid motion against sliding. 0.02, ours.
     pub min_firmness: f64,
     /// Smallest height of a symmetry's cluster, as a share of the highest: what fewer votes speak for
@@ -51,6 +53,7 @@ impl Default for PatchParams {
             min_copy: 0.03,
             max_confusion: 0.12,
             max_doubt: 0.6,
+            max_copy_doubt: 0.45,
             min_firmness: 0.02,
             min_height: 0.1,
         }
@@ -58,6 +61,14 @@ impl Default for PatchParams {
 }
 
 impl PatchParams {
+    /// Largest doubt.
+    pub fn max_doubt_of(&self, class: Class) -> f64 {
+        match class {
+            Class::Mirror => self.max_doubt,
+            Class::Proper | Class::Improper => self.max_copy_doubt,
+        }
+    }
+
     /// Largest distance of a sample's image from the surface, fraction of L.
     pub fn tolerance_of(&self, class: Class) -> f64 {
         match class {
@@ -81,12 +92,15 @@ pub struct Ground<'a> {
 /// cluster's isometry is still rough.
 const MIRROR_ROUNDS: [f64; 6] = [2.5, 2.0, 1.5, 1.0, 1.0, 1.0];
 /// As a rigid motion has more freedom, its votes are rougher.
-const MOTION_ROUNDS: [f64; 7] = [5.0, 3.0, 2.0, 1.5, 1.0, 1.0, 1.0];
-/// In the last rounds contacts are weighed by how well they hold.
-const ROBUST: usize = 3;
+const MOTION_ROUNDS: [f64; 6] = [5.0, 3.0, 2.0, 1.5, 1.0, 1.0];
+/// Rounds of settling at the most.
+const SETTLING: usize = 12;
+/// Settled: contacts move by less than this from round to round, fraction of L.
+const SETTLED: f64 = 2e-5;
 
 /// Grows the patch of `cluster`: from the places that voted for it, over neighbouring samples,
-/// as long as their images lie on the surface; the isometry is refitted as the patch grows.
+/// as long as their images lie on the surface; the isometry is refitted as the patch grows, in the
+/// end to the part of the patch for which it holds best.
 ///
 /// # Errors
 /// [`Refusal`] where no symmetry worth the name comes out, with the reason.
@@ -98,41 +112,123 @@ pub fn grow_patch(
     space: &TransformSpace,
     params: &PatchParams,
 ) -> Result<Symmetry, Refusal> {
-    let list = &ground.samples.list;
-    let mut t = start(ground.samples, pairs, cluster, class, space);
+    let t = start(ground.samples, pairs, cluster, class, space);
     let votes = cluster.votes.iter().map(|&i| &pairs[i as usize]);
     // Either end of a mirror's vote lies in the patch; else the first does, the second in the image.
     let both = class == Class::Mirror;
-    let mut seeds: Vec<u32> = votes
-        .flat_map(|v| std::iter::once(v.p).chain(both.then_some(v.q)))
-        .collect();
-    seeds.sort_unstable();
-    seeds.dedup();
-    let near = seeds
-        .first()
-        .map_or(Point::origin(), |&s| list[s as usize].position);
-    let refuse = |t: Isometry, reason: String| Refusal {
+    let seeds = votes.flat_map(|v| std::iter::once(v.p).chain(both.then_some(v.q)));
+    let candidate = Candidate {
+        t,
         class,
-        q_from_p: t,
         height: cluster.height,
-        reason,
-        near,
+        seeds: sorted(seeds.collect()),
     };
-    let tolerance = params.tolerance_of(class);
-    let rounds: &[f64] = if both { &MIRROR_ROUNDS } else { &MOTION_ROUNDS };
-    let mut grown = Vec::new();
-    for (k, round) in rounds.iter().enumerate() {
-        grown = reach(ground, &t, round * tolerance, params.min_cos, &seeds);
+    verify(ground, &candidate, params)
+}
+
+fn sorted(mut samples: Vec<u32>) -> Vec<u32> {
+    samples.sort_unstable();
+    samples.dedup();
+    samples
+}
+
+/// An isometry that may be a symmetry, and the samples where it is thought to hold.
+#[derive(Debug, Clone)]
+pub struct Candidate {
+    /// The isometry, to be refined.
+    pub t: Isometry,
+    /// Its class.
+    pub class: Class,
+    /// Height of the cluster it came from.
+    pub height: f64,
+    /// Samples to grow from, increasing.
+    pub seeds: Vec<u32>,
+}
+
+/// Grows the patch of a candidate, as [`grow_patch`] does that of a cluster.
+///
+/// # Errors
+/// As [`grow_patch`].
+pub fn verify(
+    ground: &Ground<'_>,
+    candidate: &Candidate,
+    params: &PatchParams,
+) -> Result<Symmetry, Refusal> {
+    let Candidate { class, seeds, .. } = candidate;
+    let mut t = candidate.t;
+    let refuse = |t: Isometry, reason: String| Refusal {
+        class: *class,
+        q_from_p: t,
+        height: candidate.height,
+        reason,
+        near: seeds.first().map_or(Point::origin(), |&s| {
+            ground.samples.list[s as usize].position
+        }),
+    };
+    let nowhere = "its votes do not hold on the surface";
+    let tolerance = params.tolerance_of(*class);
+    let mirror = *class == Class::Mirror;
+    let rounds = if mirror {
+        &MIRROR_ROUNDS
+    } else {
+        &MOTION_ROUNDS
+    };
+    for round in rounds {
+        let grown = reach(ground, &t, round * tolerance, params.min_cos, seeds);
         if grown.is_empty() {
-            return Err(refuse(t, "its votes do not hold on the surface".into()));
+            return Err(refuse(t, nowhere.into()));
         }
         let mut contacts = contacts(ground, &grown);
-        if k + ROBUST >= rounds.len() {
-            weigh(&t, &mut contacts);
+        if !mirror {
+            let scale = scale(&grown, seeds, 0.5);
+            weigh(&t, &mut contacts, scale);
         }
-        t = refine(&t, class, &contacts);
+        t = refine(&t, *class, &contacts);
     }
-    judge(ground, grown, t, class, cluster.height, params).map_err(|reason| refuse(t, reason))
+    let mut spread = 0.0;
+    for _ in 0..SETTLING {
+        let grown = reach(ground, &t, tolerance, params.min_cos, seeds);
+        if grown.is_empty() {
+            return Err(refuse(t, nowhere.into()));
+        }
+        spread = scale(&grown, seeds, 0.25);
+        let mut contacts = contacts(ground, &grown);
+        weigh(&t, &mut contacts, spread);
+        let next = refine(&t, *class, &contacts);
+        let moved = contacts
+            .iter()
+            .map(|c| (next.apply(&c.x) - t.apply(&c.x)).norm_squared());
+        let moved = (moved.sum::<f64>() / contacts.len() as f64).sqrt();
+        t = next;
+        if moved < SETTLED {
+            break;
+        }
+    }
+    // A copy ends where it no longer holds as it does where it holds best.
+    let reached = if mirror {
+        tolerance
+    } else {
+        (6.0 * spread).clamp(0.25 * tolerance, tolerance)
+    };
+    let grown = reach(ground, &t, reached, params.min_cos, seeds);
+    if grown.is_empty() {
+        return Err(refuse(t, nowhere.into()));
+    }
+    judge(ground, grown, t, *class, candidate.height, reached, params)
+        .map_err(|reason| refuse(t, reason))
+}
+
+/// 1.5 times the `quantile` of the residuals of those pairs that the candidate was found by.
+fn scale(grown: &[PatchPair], seeds: &[u32], quantile: f64) -> f64 {
+    let seeded = grown
+        .iter()
+        .filter(|p| seeds.binary_search(&p.sample).is_ok());
+    let mut residuals: Vec<f64> = seeded.map(|p| p.residual).collect();
+    if residuals.is_empty() {
+        residuals = grown.iter().map(|p| p.residual).collect();
+    }
+    let at = ((residuals.len() - 1) as f64 * quantile) as usize;
+    1.5 * *residuals.select_nth_unstable_by(at, f64::total_cmp).1
 }
 
 /// The isometry that a cluster's votes agree on: appendix A for mirrors, else the mean of the cloud.

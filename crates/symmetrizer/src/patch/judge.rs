@@ -4,18 +4,19 @@ use rayon::prelude::*;
 
 use crate::geom::PointIndex;
 use crate::patch::grow::{Ground, PatchParams, contacts, image};
-use crate::patch::refine::{firmness, weigh};
+use crate::patch::refine::firmness;
 use crate::patch::symmetry::{PatchPair, Symmetry};
 use crate::sample::Sample;
 use crate::transform::{Ambient, Class, Correspondence, Isometry, MirrorFit, optimal_mirror};
 
-/// The symmetry of a grown patch, or the reason why it is none.
+/// The symmetry of a patch grown to where contacts were `reached` apart, or the reason why it is none.
 pub fn judge(
     ground: &Ground<'_>,
     grown: Vec<PatchPair>,
     t: Isometry,
     class: Class,
     height: f64,
+    reached: f64,
     params: &PatchParams,
 ) -> Result<Symmetry, String> {
     let image = match class {
@@ -24,8 +25,11 @@ pub fn judge(
     };
     let area_fraction = covered(&grown, &image, ground.samples.list.len());
     large_enough(area_fraction, class, params)?;
-    well_determined(ground, &grown, &t, class, params)?;
-    let confusion = confusion(ground, &grown);
+    well_determined(ground, &grown, class, params)?;
+    let confusion = match class {
+        Class::Mirror => confusion(ground, &grown),
+        Class::Proper | Class::Improper => 0.0,
+    };
     if confusion > params.max_confusion {
         return Err(format!(
             "partners look no more alike than many other places (confusion {confusion:.2})"
@@ -33,12 +37,11 @@ pub fn judge(
     }
     let mean_square = grown.iter().map(|p| p.residual.powi(2)).sum::<f64>() / grown.len() as f64;
     let rms = mean_square.sqrt();
-    let tolerance = params.tolerance_of(class);
-    if rms / tolerance + confusion > params.max_doubt {
+    if rms / reached + confusion > params.max_doubt_of(class) {
         return Err(format!(
             "its image passes by the surface rather than lies on it (rms {:.2} of the tolerance, \
              confusion {confusion:.2})",
-            rms / tolerance
+            rms / reached
         ));
     }
     let q_from_p = match class {
@@ -89,7 +92,6 @@ fn large_enough(area_fraction: f64, class: Class, params: &PatchParams) -> Resul
 fn well_determined(
     ground: &Ground<'_>,
     grown: &[PatchPair],
-    t: &Isometry,
     class: Class,
     params: &PatchParams,
 ) -> Result<(), String> {
@@ -103,8 +105,7 @@ fn well_determined(
         }
         return Ok(());
     }
-    let mut contacts = contacts(ground, grown);
-    weigh(t, &mut contacts);
+    let contacts = contacts(ground, grown);
     let firmness = firmness(&contacts);
     if firmness < params.min_firmness {
         return Err(format!("slides along itself (firmness {firmness:.3})"));

@@ -3,6 +3,7 @@
 pub mod grow;
 pub mod ids;
 pub mod judge;
+pub mod likeness;
 pub mod refine;
 pub mod symmetry;
 

@@ -40,16 +40,10 @@ pub fn refine(t: &Isometry, class: Class, contacts: &[Contact]) -> Isometry {
 }
 
 /// Weights 1 / (1 + r^2 / s^2)^2 by the distance r of a contact's ends under `t` (Geman and
-/// McClure), s = 1.5 medians: what holds for most counts, what merely reaches the tolerance does not.
-pub fn weigh(t: &Isometry, contacts: &mut [Contact]) {
-    let distance = |c: &Contact| (t.apply(&c.x) - c.y).norm();
-    let mut distances: Vec<f64> = contacts.iter().map(distance).collect();
-    let middle = distances.len() / 2;
-    if distances.is_empty() {
-        return;
-    }
-    let median = *distances.select_nth_unstable_by(middle, f64::total_cmp).1;
-    let s = (1.5 * median).max(1e-9);
+/// McClure): what holds to within about s counts, what merely reaches the tolerance does not.
+pub fn weigh(t: &Isometry, contacts: &mut [Contact], s: f64) {
+    // Below this all that differs is the triangulation.
+    let s = s.max(2e-4);
     for c in contacts {
         let r = (t.apply(&c.x) - c.y).norm() / s;
         c.weight = (1.0 + r * r).powi(-2);

@@ -31,6 +31,11 @@ impl Frame {
         self.n.cross(&self.e1)
     }
 
+    /// The angle at which a direction, made tangent, stands against e1, radians.
+    pub fn angle_of(&self, direction: &Vector) -> f64 {
+        direction.dot(&self.e2()).atan2(direction.dot(&self.e1))
+    }
+
     /// The frame turned about its normal by `alpha` radians.
     pub fn turned(&self, alpha: f64) -> Self {
         Self {
@@ -228,6 +233,15 @@ impl Relief {
             }
         }
         Some((2.0 * difference.max(0.0) / energy).sqrt())
+    }
+
+    /// The gap at a given turn of the second one's frame, in the view where it is smaller.
+    pub fn gap_at(&self, other: &Self, mirrored: bool, turn: f64) -> Option<f64> {
+        VIEWS
+            .iter()
+            .filter_map(|view| Correlation::new(self, other, mirrored, view))
+            .map(|c| c.gap(turn))
+            .min_by(f64::total_cmp)
     }
 
     /// The turns at which `self`, mirrored if asked, lies best on `other`: the local optima with a gap
