@@ -36,7 +36,7 @@ pub struct Params {
 
 /// What each parameter may be. The limits keep work and memory finite and formulas defined; within
 /// them not every value is wise.
-const RANGES: [(&str, f64, f64); 33] = [
+const RANGES: [(&str, f64, f64); 34] = [
     ("sample.count", 100.0, 20_000.0),
     ("pair.tolerance", 1e-6, 100.0),
     ("pair.partners", 1.0, 1000.0),
@@ -50,7 +50,8 @@ const RANGES: [(&str, f64, f64); 33] = [
     ("pair.min_strength", 0.0, 10.0),
     ("pair.max_gap", 1e-6, 10.0),
     ("patch.copy_tolerance", 1e-6, 0.5),
-    ("patch.max_copy_doubt", 0.0, 2.0),
+    ("patch.max_filled", 0.0, 2.0),
+    ("patch.max_unlikeness", 0.0, 2.0),
     ("patch.min_copy", 0.0, 1.0),
     ("patch.min_firmness", 0.0, 1.0),
     ("patch.max_doubt", 0.0, 2.0),

@@ -1,6 +1,7 @@
 //! Mean shift with the Epanechnikov kernel: modes of the votes' density, and their heights.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use nalgebra::{SMatrix, SVector};
 use rayon::prelude::*;
@@ -37,13 +38,14 @@ pub struct Cluster {
 }
 
 /// Votes in transformation space with an index for range queries.
+#[derive(Clone)]
 pub struct Votes {
     phi: Vec<Phi>,
     weights: Vec<f64>,
     /// Leading principal axes of phi: distances along them never exceed those in all twelve, so a
     /// range query in them finds a superset, exactly filtered after.
     axes: SMatrix<f64, LEADING, 12>,
-    index: PointIndex<LEADING>,
+    index: Arc<PointIndex<LEADING>>,
 }
 
 const LEADING: usize = 6;
@@ -56,7 +58,7 @@ impl Votes {
         let axes: SMatrix<f64, LEADING, 12> = leading_axes(&phi);
         let short: Vec<[f64; LEADING]> = phi.iter().map(|x| (axes * x).into()).collect();
         Self {
-            index: PointIndex::new(&short),
+            index: Arc::new(PointIndex::new(&short)),
             phi,
             weights,
             axes,
@@ -90,6 +92,14 @@ impl Votes {
                 *w = 0.0;
             }
         }
+    }
+
+    /// The kernel density at a point: the sum of w (1 - |phi - x|^2 / h^2).
+    pub fn density(&self, x: &Phi, h: f64) -> f64 {
+        let near = self.within(x, h);
+        near.iter()
+            .map(|&(i, d2)| self.weights[i as usize] * (1.0 - d2 / (h * h)))
+            .sum()
     }
 
     /// All modes, highest first: mean shift from every vote on a coarse net, modes closer than h

@@ -6,6 +6,8 @@ mod search;
 
 pub use groups::Group;
 
+use search::Surroundings;
+
 use crate::cluster::{ClusterParams, Votes};
 use crate::context::Context;
 use crate::error::Result;
@@ -112,17 +114,14 @@ pub fn detect(
             votes,
         };
         let clusters = ctx.stage("cluster", |_| Ok(cloud.votes.clusters(&params.cluster)))?;
+        let surroundings = Surroundings {
+            ground: &ground,
+            space: &space,
+            describer: &describer,
+            params,
+        };
         let found = ctx.stage("patch", |ctx| {
-            search::search(
-                &ground,
-                &space,
-                &describer,
-                clusters,
-                &mut cloud,
-                &symmetries,
-                params,
-                ctx,
-            )
+            search::search(&surroundings, clusters, &mut cloud, &symmetries, ctx)
         })?;
         for symmetry in found.symmetries {
             let id = symmetries.len() as u32;

@@ -3,18 +3,19 @@
 
 use rayon::prelude::*;
 
-use crate::cluster::Cluster;
+use crate::cluster::{Cluster, Votes};
 use crate::context::Context;
 use crate::detect::{Cloud, DetectParams};
 use crate::error::Result;
-use crate::patch::grow::Ground;
-use crate::patch::likeness::confusion;
+use crate::pair::{Pair, shuffled_mirrors};
+use crate::patch::grow::{Ground, touch};
 use crate::patch::{Refusal, Symmetry, grow_patch};
 use crate::sample::samples::Describer;
 use crate::transform::space::Phi;
-use crate::transform::{Class, TransformSpace};
+use crate::transform::{Class, Isometry, TransformSpace};
 
 /// What came of a cloud's modes.
+#[derive(Default)]
 pub struct Found {
     /// Verified, the highest first.
     pub symmetries: Vec<Symmetry>,
@@ -26,100 +27,144 @@ pub struct Found {
 const MIRRORS: usize = 12;
 /// Modes of motions grown at the most.
 const MOTIONS: usize = 300;
-
 /// Votes a mode must have left to be looked at.
 const MIN_VOTES: usize = 8;
 
 /// The symmetries among the modes of `cloud`; `known` are those of other clouds.
 pub fn search(
-    ground: &Ground<'_>,
-    space: &TransformSpace,
-    describer: &Describer<'_>,
+    surroundings: &Surroundings<'_>,
     clusters: Vec<Cluster>,
     cloud: &mut Cloud,
     known: &[Symmetry],
-    params: &DetectParams,
     ctx: &mut Context<'_>,
 ) -> Result<Found> {
     match cloud.class {
-        Class::Mirror => mirrors(ground, space, clusters, cloud, known, params, ctx),
-        _ => motions(
-            ground, space, describer, &clusters, cloud, known, params, ctx,
-        ),
+        Class::Mirror => mirrors(surroundings, clusters, cloud, ctx),
+        _ => motions(surroundings, &clusters, cloud, known, ctx),
     }
 }
 
 /// Grows all modes of motions, each for itself, and keeps the best of those that are one symmetry.
 fn motions(
-    ground: &Ground<'_>,
-    space: &TransformSpace,
-    describer: &Describer<'_>,
+    surroundings: &Surroundings<'_>,
     clusters: &[Cluster],
     cloud: &Cloud,
     known: &[Symmetry],
-    params: &DetectParams,
     ctx: &mut Context<'_>,
 ) -> Result<Found> {
+    let Surroundings {
+        ground,
+        space,
+        describer,
+        params,
+    } = surroundings;
     let class = cloud.class;
     let worth = clusters.iter().filter(|c| c.votes.len() >= MIN_VOTES);
     let modes: Vec<&Cluster> = worth.take(MOTIONS).collect();
     let grown: Vec<_> = modes
         .par_iter()
-        .map(|c| grow_patch(ground, &cloud.pairs, c, class, space, &params.patch))
+        .map(|c| {
+            grow_patch(
+                ground,
+                describer,
+                &cloud.pairs,
+                c,
+                class,
+                space,
+                &params.patch,
+            )
+        })
         .collect();
     ctx.progress(1.0)?;
-    let mut refused = Vec::new();
+    let mut found = Found::default();
     let mut good: Vec<Symmetry> = Vec::new();
     for outcome in grown {
         match outcome {
             Ok(symmetry) => good.push(symmetry),
-            Err(refusal) => refused.push(refusal),
+            Err(refusal) => found.refused.push(refusal),
         }
     }
     let quality = |s: &Symmetry| s.area_fraction * (1.0 - s.rms / params.patch.copy_tolerance);
     good.sort_by(|a, b| quality(b).total_cmp(&quality(a)));
     let near = 0.5 * params.cluster.bandwidth;
-    let mut symmetries: Vec<Symmetry> = Vec::new();
+    let mut accepted = known.to_vec();
     for s in good {
-        let mut all = symmetries.iter().chain(known);
-        if all.any(|k| is_same(k, &s, space, near)) {
+        if accepted.iter().any(|k| is_same(k, &s, space, near)) {
             continue;
         }
-        let confusion = confusion(ground, describer, &s);
-        if confusion > params.patch.max_confusion {
-            let near = ground.samples.list[s.pairs[0].sample as usize].position;
-            refused.push(Refusal {
-                class,
-                q_from_p: s.q_from_p,
-                height: s.height,
-                reason: format!(
-                    "partners look no more alike than many other places (confusion {confusion:.2})"
-                ),
-                near,
-            });
-            continue;
+        match as_good(s, &accepted, ground) {
+            Ok(s) => accepted.push(s),
+            Err(refusal) => found.refused.push(refusal),
         }
-        symmetries.push(Symmetry { confusion, ..s });
     }
-    Ok(Found {
-        symmetries,
-        refused,
-    })
+    found.symmetries = accepted.split_off(known.len());
+    Ok(found)
+}
+
+/// Mirrors in two passes: first those of different ground, each taking the votes of its patch with it;
+/// then those that share their ground with one found already and hold there as well as it does.
+fn mirrors(
+    surroundings: &Surroundings<'_>,
+    clusters: Vec<Cluster>,
+    cloud: &mut Cloud,
+    ctx: &mut Context<'_>,
+) -> Result<Found> {
+    let mut found = Found::default();
+    let all = cloud.votes.clone();
+    pass(
+        surroundings,
+        clusters,
+        cloud,
+        &mut found,
+        Explain::Ground,
+        ctx,
+    )?;
+    if found.symmetries.is_empty() {
+        return Ok(found);
+    }
+    let explained = std::mem::replace(&mut cloud.votes, all);
+    for k in 0..found.symmetries.len() {
+        let t = found.symmetries[k].q_from_p;
+        explain_near(cloud, surroundings, &t);
+    }
+    let clusters = cloud.votes.clusters(&surroundings.params.cluster);
+    pass(
+        surroundings,
+        clusters,
+        cloud,
+        &mut found,
+        Explain::Mode,
+        ctx,
+    )?;
+    cloud.votes = explained;
+    Ok(found)
+}
+
+/// Which votes a symmetry takes with it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Explain {
+    /// Those between places of its patch, whatever mirror they vote for.
+    Ground,
+    /// Those for about itself.
+    Mode,
 }
 
 /// Grows the modes of `cloud` one after the other, counting only votes that no symmetry found so far
-/// explains; `known` are the symmetries of other clouds.
-fn mirrors(
-    ground: &Ground<'_>,
-    space: &TransformSpace,
+/// explains.
+fn pass(
+    surroundings: &Surroundings<'_>,
     mut clusters: Vec<Cluster>,
     cloud: &mut Cloud,
-    known: &[Symmetry],
-    params: &DetectParams,
+    found: &mut Found,
+    explain: Explain,
     ctx: &mut Context<'_>,
-) -> Result<Found> {
-    let mut found: Vec<Symmetry> = Vec::new();
-    let mut refused = Vec::new();
+) -> Result<()> {
+    let Surroundings {
+        ground,
+        space,
+        describer,
+        params,
+    } = surroundings;
     let h = params.cluster.bandwidth;
     let mut tried: Vec<Phi> = Vec::new();
     for k in 0..MIRRORS {
@@ -128,32 +173,143 @@ fn mirrors(
         let Some(cluster) = clusters.iter().find(untried) else {
             break;
         };
-        let highest = found.iter().map(|s| s.height).fold(0.0, f64::max);
+        let highest = found
+            .symmetries
+            .iter()
+            .map(|s| s.height)
+            .fold(0.0, f64::max);
         if cluster.votes.len() < MIN_VOTES || cluster.height < params.patch.min_height * highest {
             break;
         }
         tried.push(cluster.mode);
-        let class = cloud.class;
-        match grow_patch(ground, &cloud.pairs, cluster, class, space, &params.patch) {
-            Err(refusal) => refused.push(refusal),
+        let grown = grow_patch(
+            ground,
+            describer,
+            &cloud.pairs,
+            cluster,
+            Class::Mirror,
+            space,
+            &params.patch,
+        )
+        .and_then(|s| surroundings.weigh_against_chance(s, cluster, cloud, ctx))
+        .and_then(|s| as_good(s, &found.symmetries, ground));
+        match grown {
+            Err(refusal) => found.refused.push(refusal),
             Ok(symmetry) => {
-                let mut all = found.iter().chain(known);
-                let again = all.any(|s| is_same(s, &symmetry, space, 0.5 * h));
-                let well = 0.5 * params.patch.tolerance;
-                explain(cloud, &symmetry, ground.samples.list.len(), well);
+                let again = found
+                    .symmetries
+                    .iter()
+                    .any(|s| is_same(s, &symmetry, space, 0.5 * h));
+                match explain {
+                    Explain::Ground => explain_ground(cloud, surroundings, &symmetry.q_from_p),
+                    Explain::Mode => explain_near(cloud, surroundings, &symmetry.q_from_p),
+                }
                 // From all starts again: a mode that stood in the shadow of this one shows now.
                 clusters = cloud.votes.clusters(&params.cluster);
                 if !again {
-                    found.push(symmetry);
+                    found.symmetries.push(symmetry);
                 }
             }
         }
     }
-    Ok(Found {
-        symmetries: found,
-        refused,
-    })
+    Ok(())
 }
+
+/// What symmetries are looked for on.
+pub struct Surroundings<'a> {
+    /// The surface and its samples.
+    pub ground: &'a Ground<'a>,
+    /// Transformation space of the surface.
+    pub space: &'a TransformSpace,
+    /// Makes samples of other places.
+    pub describer: &'a Describer<'a>,
+    /// The parameters.
+    pub params: &'a DetectParams,
+}
+
+/// Shuffles of the votes that chance is estimated from.
+const SHUFFLES: usize = 4;
+
+impl Surroundings<'_> {
+    /// Refuses a mirror whose cluster is hardly higher than chance, adding this to its doubt: the
+    /// height that the same votes have there when their second places are shuffled.
+    fn weigh_against_chance(
+        &self,
+        symmetry: Symmetry,
+        cluster: &Cluster,
+        cloud: &Cloud,
+        ctx: &Context<'_>,
+    ) -> std::result::Result<Symmetry, Refusal> {
+        let mut rng = ctx.rng("chance");
+        let weighed: Vec<Pair> = cloud
+            .pairs
+            .iter()
+            .zip(cloud.votes.weights())
+            .filter(|(_, w)| **w > 0.0)
+            .map(|(v, _)| *v)
+            .collect();
+        let h = self.params.cluster.bandwidth;
+        let chance: f64 = (0..SHUFFLES)
+            .map(|_| {
+                let other =
+                    shuffled_mirrors(&weighed, self.ground.samples, &self.params.pair, &mut rng);
+                let share = weighed.len() as f64 / other.len().max(1) as f64;
+                share * Votes::new(&other, self.space).density(&cluster.mode, h)
+            })
+            .sum::<f64>()
+            / SHUFFLES as f64;
+        let chance = chance / cluster.height;
+        let doubt = symmetry.doubt + chance;
+        if std::env::var("DEBUG").is_ok() {
+            eprintln!(
+                "mirror h {:.2} area {:.2} rms {:.4} conf {:.3} chance {chance:.2} doubt {doubt:.3}",
+                symmetry.height, symmetry.area_fraction, symmetry.rms, symmetry.confusion
+            );
+        }
+        if doubt <= self.params.patch.max_doubt {
+            return Ok(Symmetry { doubt, ..symmetry });
+        }
+        let reason = format!(
+            "doubtful ({doubt:.2}): partners look no more alike than many other places (confusion \
+             {:.2}), its image passes by the surface, or as many votes come by chance ({chance:.2})",
+            symmetry.confusion
+        );
+        Err(symmetry.refuse(reason, self.ground.samples))
+    }
+}
+
+/// Refuses what holds clearly worse than a symmetry found already does on the same ground: where an
+/// exact symmetry is known, approximate ones are its echo.
+fn as_good(
+    s: Symmetry,
+    found: &[Symmetry],
+    ground: &Ground<'_>,
+) -> std::result::Result<Symmetry, Refusal> {
+    let count = ground.samples.list.len();
+    let own = s.ground(count);
+    let size = own.iter().filter(|m| **m).count();
+    let echo = found.iter().find(|k| {
+        let other = k.ground(count);
+        let shared = own.iter().zip(&other).filter(|(a, b)| **a && **b).count();
+        2 * shared > size && s.rms > WORSE * k.rms + SLACK
+    });
+    match echo {
+        None => Ok(s),
+        Some(k) => {
+            let reason = format!(
+                "holds worse than another on the same ground (rms {:.2} % of L, the other {:.2} %)",
+                100.0 * s.rms,
+                100.0 * k.rms
+            );
+            Err(s.refuse(reason, ground.samples))
+        }
+    }
+}
+
+/// Clearly worse is an rms residual this many times another's,
+const WORSE: f64 = 1.7;
+/// and by this much, fraction of L.
+const SLACK: f64 = 5e-4;
 
 /// Whether two symmetries are one: T and its inverse are.
 fn is_same(a: &Symmetry, b: &Symmetry, space: &TransformSpace, near: f64) -> bool {
@@ -161,16 +317,28 @@ fn is_same(a: &Symmetry, b: &Symmetry, space: &TransformSpace, near: f64) -> boo
     space.distance(s, t) < near || space.distance(s, &t.inverse()) < near
 }
 
-/// A vote is explained when both of its ends lie well within the symmetry's patch: what they look
-/// like is accounted for, whatever mirror they vote for. Ends that the mirror only just reaches,
-/// as on a round head turned a little on its body, keep their say.
-fn explain(cloud: &mut Cloud, symmetry: &Symmetry, count: usize, well: f64) {
-    let mut patch = vec![false; count];
-    for pair in symmetry.pairs.iter().filter(|p| p.residual < well) {
-        patch[pair.sample as usize] = true;
-    }
+/// A vote is explained when the symmetry holds well at both of its ends: what they look like is accounted
+/// for, whatever mirror they vote for. Ends that the mirror only just reaches, as on a round head
+/// turned a little on its body, keep their say.
+fn explain_ground(cloud: &mut Cloud, surroundings: &Surroundings<'_>, t: &Isometry) {
+    let patch = &surroundings.params.patch;
+    let touched = touch(surroundings.ground, t, 0.5 * patch.tolerance, patch.min_cos);
     let pairs = &cloud.pairs;
-    cloud
+    cloud.votes.explain_away(|i| {
+        let (p, q) = (pairs[i].p as usize, pairs[i].q as usize);
+        touched[p].is_some() && touched[q].is_some()
+    });
+}
+
+/// Takes out the votes for about `t`.
+fn explain_near(cloud: &mut Cloud, surroundings: &Surroundings<'_>, t: &Isometry) {
+    let h = surroundings.params.cluster.bandwidth;
+    let mode = surroundings.space.embed(t);
+    let near: Vec<bool> = cloud
         .votes
-        .explain_away(|i| patch[pairs[i].p as usize] && patch[pairs[i].q as usize]);
+        .points()
+        .iter()
+        .map(|x| (x - mode).norm() < h)
+        .collect();
+    cloud.votes.explain_away(|i| near[i]);
 }

@@ -54,3 +54,9 @@ pub fn nearest_orthogonal(m: &Matrix3, improper: bool) -> Matrix3 {
     sign[least] = hand * (u * v_t).determinant().signum();
     u * Matrix3::from_diagonal(&sign) * v_t
 }
+
+/// The median, the upper of two; `None` of nothing. Changes the order of `values`.
+pub fn median(values: &mut [f64]) -> Option<f64> {
+    let middle = values.len() / 2;
+    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
+}

@@ -81,7 +81,7 @@ fn partners(list: &[Sample], p: usize, params: &PairParams, rarity: &[f64]) -> V
 
 /// The mirror that exchanges two samples, where it also exchanges their normals and, where both
 /// have them, their principal directions.
-fn mirror_of(p: &Sample, q: &Sample, params: &PairParams) -> Option<Plane> {
+pub fn mirror_of(p: &Sample, q: &Sample, params: &PairParams) -> Option<Plane> {
     let between = p.position - q.position;
     let distance = between.norm();
     if distance < params.min_distance {

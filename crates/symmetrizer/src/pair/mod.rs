@@ -1,10 +1,12 @@
 //! Compatible pairs of samples: the votes for symmetries (section 2).
 
+mod chance;
 mod mirror;
 mod rigid;
 
 use crate::transform::Isometry;
 
+pub use chance::shuffled_mirrors;
 pub use mirror::mirror_pairs;
 pub use rigid::rigid_pairs;
 

@@ -9,6 +9,7 @@ use crate::patch::judge::judge;
 use crate::patch::refine::{Contact, refine, weigh};
 use crate::patch::symmetry::{PatchPair, Refusal, Symmetry};
 use crate::sample::Samples;
+use crate::sample::samples::Describer;
 use crate::shape::{ClosestPoint, Surface};
 use crate::transform::{Ambient, Class, Correspondence, Isometry, TransformSpace, optimal_mirror};
 
@@ -27,15 +28,17 @@ pub struct PatchParams {
     pub min_area: f64,
     /// Smallest share of the surface's area that a copy and its image have together. 0.03, ours.
     pub min_copy: f64,
-    /// Largest confusion of the pairs, see [`Symmetry::confusion`]. 0.12, ours: true mirrors of the
-    /// models stay below .105, those of shapes without symmetry start at .138.
+    /// Largest confusion of a mirror's pairs, see [`Symmetry::confusion`]. 0.18, ours.
     pub max_confusion: f64,
-    /// Largest sum of the rms residual, in units of the tolerance, and the confusion: a surface that
-    /// merely passes by fills the tolerance evenly (rms .58) and looks like many places. 0.6, ours:
-    /// true mirrors of the models reach .58, the arms of a chiral shape start at .61.
+    /// Largest doubt about a mirror: the rms residual in units of the tolerance (a surface that merely
+    /// passes by fills the tolerance evenly: .58), twice the confusion, and the share of its height
+    /// that comes by chance. 0.82, ours, decision 0012: true mirrors of the models reach .77, false ones
+    /// start at .88.
     pub max_doubt: f64,
-    /// Largest rms residual of a motion, in units of what its patch was grown to. 0.45, ours.
-    pub max_copy_doubt: f64,
+    /// Largest rms residual of a motion, in units of the tolerance. 0.45, ours.
+    pub max_filled: f64,
+    /// Largest median gap between the reliefs of a motion's partners. 0.6, ours.
+    pub max_unlikeness: f64,
     /// Smallest firmness with which a patch holds a rigid motion against sliding. 0.02, ours.
     pub min_firmness: f64,
     /// Smallest height of a symmetry's cluster, as a share of the highest: what fewer votes speak for
@@ -51,9 +54,10 @@ impl Default for PatchParams {
             min_cos: 0.75,
             min_area: 0.08,
             min_copy: 0.03,
-            max_confusion: 0.12,
-            max_doubt: 0.6,
-            max_copy_doubt: 0.45,
+            max_confusion: 0.18,
+            max_doubt: 0.82,
+            max_filled: 0.45,
+            max_unlikeness: 0.6,
             min_firmness: 0.02,
             min_height: 0.1,
         }
@@ -61,14 +65,6 @@ impl Default for PatchParams {
 }
 
 impl PatchParams {
-    /// Largest doubt.
-    pub fn max_doubt_of(&self, class: Class) -> f64 {
-        match class {
-            Class::Mirror => self.max_doubt,
-            Class::Proper | Class::Improper => self.max_copy_doubt,
-        }
-    }
-
     /// Largest distance of a sample's image from the surface, fraction of L.
     pub fn tolerance_of(&self, class: Class) -> f64 {
         match class {
@@ -90,9 +86,14 @@ pub struct Ground<'a> {
 
 /// Tolerances of the growing rounds, in units of the class's tolerance: wide first, while the
 /// cluster's isometry is still rough.
-const MIRROR_ROUNDS: [f64; 6] = [2.5, 2.0, 1.5, 1.0, 1.0, 1.0];
+const WIDE: [f64; 6] = [2.5, 2.0, 1.5, 1.0, 1.0, 1.0];
+/// For mirrors a second time, as if only what holds well were there: a part that moves as one piece is
+/// not drawn towards its neighbours.
+const NARROW: [f64; 4] = [1.2, 0.8, 0.4, 0.4];
 /// As a rigid motion has more freedom, its votes are rougher.
-const MOTION_ROUNDS: [f64; 6] = [5.0, 3.0, 2.0, 1.5, 1.0, 1.0];
+const MOTION: [f64; 6] = [5.0, 3.0, 2.0, 1.5, 1.0, 1.0];
+/// Residual up to which a place speaks for one of two mirrors, in units of the tolerance.
+const WELL: f64 = 0.4;
 /// Rounds of settling at the most.
 const SETTLING: usize = 12;
 /// Settled: contacts move by less than this from round to round, fraction of L.
@@ -106,6 +107,7 @@ const SETTLED: f64 = 2e-5;
 /// [`Refusal`] where no symmetry worth the name comes out, with the reason.
 pub fn grow_patch(
     ground: &Ground<'_>,
+    describer: &Describer<'_>,
     pairs: &[Pair],
     cluster: &Cluster,
     class: Class,
@@ -123,7 +125,7 @@ pub fn grow_patch(
         height: cluster.height,
         seeds: sorted(seeds.collect()),
     };
-    verify(ground, &candidate, params)
+    verify(ground, describer, &candidate, params)
 }
 
 fn sorted(mut samples: Vec<u32>) -> Vec<u32> {
@@ -151,11 +153,11 @@ pub struct Candidate {
 /// As [`grow_patch`].
 pub fn verify(
     ground: &Ground<'_>,
+    describer: &Describer<'_>,
     candidate: &Candidate,
     params: &PatchParams,
 ) -> Result<Symmetry, Refusal> {
     let Candidate { class, seeds, .. } = candidate;
-    let mut t = candidate.t;
     let refuse = |t: Isometry, reason: String| Refusal {
         class: *class,
         q_from_p: t,
@@ -165,31 +167,70 @@ pub fn verify(
             ground.samples.list[s as usize].position
         }),
     };
-    let nowhere = "its votes do not hold on the surface";
+    let nowhere = || "its votes do not hold on the surface".to_owned();
     let tolerance = params.tolerance_of(*class);
     let mirror = *class == Class::Mirror;
-    let rounds = if mirror {
-        &MIRROR_ROUNDS
+    let settled = if mirror {
+        let both = [&WIDE[..], &NARROW[..]].map(|rounds| settle(ground, candidate, rounds, params));
+        let [wide, narrow] = both;
+        best_supported(ground, wide, narrow, params)
     } else {
-        &MOTION_ROUNDS
+        settle(ground, candidate, &MOTION, params)
     };
+    let Some(Settled { t, spread }) = settled else {
+        return Err(refuse(candidate.t, nowhere()));
+    };
+    // A patch ends where the isometry no longer holds as it does where it holds best.
+    let reached = (6.0 * spread).clamp(0.25 * tolerance, tolerance);
+    let grown = reach(ground, &t, reached, params.min_cos, seeds);
+    if grown.is_empty() {
+        return Err(refuse(t, nowhere()));
+    }
+    judge(
+        ground,
+        describer,
+        grown,
+        t,
+        *class,
+        candidate.height,
+        reached,
+        params,
+    )
+    .map_err(|reason| refuse(t, reason))
+}
+
+/// An isometry that has come to rest on the surface.
+struct Settled {
+    t: Isometry,
+    /// How well it holds where it holds best, fraction of L.
+    spread: f64,
+}
+
+/// Refits a candidate's isometry while its patch grows in `rounds`, then to where it holds best. `None`
+/// where it holds nowhere.
+fn settle(
+    ground: &Ground<'_>,
+    candidate: &Candidate,
+    rounds: &[f64],
+    params: &PatchParams,
+) -> Option<Settled> {
+    let Candidate { class, seeds, .. } = candidate;
+    let tolerance = params.tolerance_of(*class);
+    let mut t = candidate.t;
     for round in rounds {
         let grown = reach(ground, &t, round * tolerance, params.min_cos, seeds);
-        if grown.is_empty() {
-            return Err(refuse(t, nowhere.into()));
-        }
         let mut contacts = contacts(ground, &grown);
-        if !mirror {
-            let scale = scale(&grown, seeds, 0.5);
-            weigh(&t, &mut contacts, scale);
+        if *class != Class::Mirror && !grown.is_empty() {
+            weigh(&t, &mut contacts, scale(&grown, seeds, 0.5));
         }
         t = refine(&t, *class, &contacts);
     }
+    let last = rounds.last().copied().unwrap_or(1.0) * tolerance;
     let mut spread = 0.0;
     for _ in 0..SETTLING {
-        let grown = reach(ground, &t, tolerance, params.min_cos, seeds);
+        let grown = reach(ground, &t, last, params.min_cos, seeds);
         if grown.is_empty() {
-            return Err(refuse(t, nowhere.into()));
+            return None;
         }
         spread = scale(&grown, seeds, 0.25);
         let mut contacts = contacts(ground, &grown);
@@ -204,18 +245,29 @@ pub fn verify(
             break;
         }
     }
-    // A copy ends where it no longer holds as it does where it holds best.
-    let reached = if mirror {
-        tolerance
-    } else {
-        (6.0 * spread).clamp(0.25 * tolerance, tolerance)
+    Some(Settled { t, spread })
+}
+
+/// Of two the one that holds well for more of the surface.
+fn best_supported(
+    ground: &Ground<'_>,
+    wide: Option<Settled>,
+    narrow: Option<Settled>,
+    params: &PatchParams,
+) -> Option<Settled> {
+    let well = WELL * params.tolerance;
+    let support = |s: &Option<Settled>| {
+        s.as_ref().map_or(0.0, |s| {
+            let touched = touch(ground, &s.t, well, params.min_cos);
+            let share = |p: PatchPair| 1.0 - (p.residual / well).powi(2);
+            touched.into_iter().flatten().map(share).sum::<f64>()
+        })
     };
-    let grown = reach(ground, &t, reached, params.min_cos, seeds);
-    if grown.is_empty() {
-        return Err(refuse(t, nowhere.into()));
+    if support(&narrow) > support(&wide) {
+        narrow
+    } else {
+        wide
     }
-    judge(ground, grown, t, *class, candidate.height, reached, params)
-        .map_err(|reason| refuse(t, reason))
 }
 
 /// 1.5 times the `quantile` of the residuals of those pairs that the candidate was found by.

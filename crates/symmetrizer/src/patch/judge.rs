@@ -2,16 +2,19 @@
 
 use rayon::prelude::*;
 
-use crate::geom::PointIndex;
+use crate::geom::{PointIndex, median};
 use crate::patch::grow::{Ground, PatchParams, contacts, image};
+use crate::patch::likeness::unlikeness;
 use crate::patch::refine::firmness;
 use crate::patch::symmetry::{PatchPair, Symmetry};
 use crate::sample::Sample;
+use crate::sample::samples::Describer;
 use crate::transform::{Ambient, Class, Correspondence, Isometry, MirrorFit, optimal_mirror};
 
 /// The symmetry of a patch grown to where contacts were `reached` apart, or the reason why it is none.
 pub fn judge(
     ground: &Ground<'_>,
+    describer: &Describer<'_>,
     grown: Vec<PatchPair>,
     t: Isometry,
     class: Class,
@@ -26,22 +29,24 @@ pub fn judge(
     let area_fraction = covered(&grown, &image, ground.samples.list.len());
     large_enough(area_fraction, class, params)?;
     well_determined(ground, &grown, class, params)?;
-    let confusion = match class {
-        Class::Mirror => confusion(ground, &grown),
-        Class::Proper | Class::Improper => 0.0,
-    };
-    if confusion > params.max_confusion {
-        return Err(format!(
-            "partners look no more alike than many other places (confusion {confusion:.2})"
-        ));
-    }
     let mean_square = grown.iter().map(|p| p.residual.powi(2)).sum::<f64>() / grown.len() as f64;
     let rms = mean_square.sqrt();
-    if rms / reached + confusion > params.max_doubt_of(class) {
+    let filled = rms / reached;
+    if class != Class::Mirror && filled > params.max_filled {
         return Err(format!(
-            "its image passes by the surface rather than lies on it (rms {:.2} of the tolerance, \
-             confusion {confusion:.2})",
-            rms / reached
+            "its image passes by the surface rather than lies on it (rms {filled:.2} of the tolerance)"
+        ));
+    }
+    let (confusion, most) = match class {
+        Class::Mirror => (confusion(ground, &grown), params.max_confusion),
+        _ => (
+            unlikeness(ground, describer, &t, &grown),
+            params.max_unlikeness,
+        ),
+    };
+    if confusion > most {
+        return Err(format!(
+            "partners look no more alike than many other places ({confusion:.2})"
         ));
     }
     let q_from_p = match class {
@@ -58,6 +63,7 @@ pub fn judge(
         area_fraction,
         rms,
         confusion,
+        doubt: filled + 2.0 * confusion,
         pairs: grown,
         image,
     })
@@ -178,9 +184,4 @@ fn confusion(ground: &Ground<'_>, grown: &[PatchPair]) -> f64 {
         })
         .collect();
     median(&mut ranks).unwrap_or(1.0)
-}
-
-fn median(values: &mut [f64]) -> Option<f64> {
-    let middle = values.len() / 2;
-    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }

@@ -1,6 +1,7 @@
 //! A symmetry of a surface: an isometry, the part of the surface it holds for, its pairs.
 
 use crate::geom::Point;
+use crate::sample::Samples;
 use crate::shape::SurfacePoint;
 use crate::transform::{Class, Isometry, Plane};
 
@@ -37,9 +38,33 @@ pub struct Symmetry {
     /// The median, over the pairs, of the share of all samples that look more like a sample than its
     /// partner does: 0 where partners are unique, 0.5 where they are any two places.
     pub confusion: f64,
+    /// What speaks against it, 0 for nothing: how evenly the residuals fill the tolerance, how little
+    /// alike partners look, for a mirror how high its cluster would be by chance.
+    pub doubt: f64,
 }
 
 impl Symmetry {
+    /// Which of `count` samples belong to the patch or to the image.
+    pub fn ground(&self, count: usize) -> Vec<bool> {
+        let mut member = self.membership(count);
+        for &s in &self.image {
+            member[s as usize] = true;
+        }
+        member
+    }
+
+    /// This symmetry as one that is none after all.
+    pub fn refuse(self, reason: String, samples: &Samples) -> Refusal {
+        let first = self.pairs.first().map(|p| &samples.list[p.sample as usize]);
+        Refusal {
+            class: self.class,
+            q_from_p: self.q_from_p,
+            height: self.height,
+            reason,
+            near: first.map_or(Point::origin(), |s| s.position),
+        }
+    }
+
     /// The mirror plane; of what is none, the plane of the nearest mirror.
     pub fn plane(&self) -> Plane {
         self.q_from_p.nearest_mirror(&Point::origin()).canonical()

@@ -74,7 +74,7 @@ impl<'a> Describer<'a> {
         let r0 = base_radius(surface);
         Self {
             surface,
-            cloud: Cloud::new(surface, r0 / 2.0),
+            cloud: Cloud::new(surface, r0 / 4.0),
             harmonics: Harmonics::new(),
             r0,
         }
