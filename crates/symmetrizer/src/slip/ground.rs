@@ -9,10 +9,10 @@ use crate::slip::params::SlipParams;
 use crate::slip::twist::{Moments, Twist};
 
 /// Share of the mismatch of neighbouring fitted normals that is the error of one of them (ours).
-const NOISE_SHARE: f64 = 0.25;
-/// Angles up to this many tolerances count as sliding: noise reaches 2.5 of its own rms in 1 % of the
-/// samples.
-pub const GATE: f64 = 2.5;
+const NOISE_SHARE: f64 = 0.5;
+/// Angles up to this many tolerances count as sliding; ours. A surface that merely passes by the slide
+/// fills them evenly, or as the cube of the distance, with an rms of 1.7 or 1.3 tolerances.
+pub const GATE: f64 = 3.0;
 
 /// Samples with normals and tolerance.
 pub struct Ground {
@@ -39,6 +39,7 @@ impl Ground {
         let of_crisp = mismatch(&positions, &crisp, &samples.neighbors);
         let of_fitted = mismatch(&positions, &fitted, &samples.neighbors);
         let noise = NOISE_SHARE * of_crisp.min(of_fitted);
+        if std::env::var_os("SLIPD").is_some() { eprintln!("mism crisp {of_crisp:.4} fitted {of_fitted:.4} tol {:.4} r0 {:.4} sp {:.4}", params.tolerance.hypot(noise), samples.radius, samples.spacing); }
         let places: Vec<[f64; 3]> = positions.iter().map(|x| x.coords.into()).collect();
         let index = PointIndex::new(&places);
         let around = places
@@ -95,8 +96,8 @@ impl Ground {
     }
 }
 
-/// Median over neighbours of |(n + m) . (y - x)| / |y - x|: on a smooth surface, where the chord makes
-/// equal angles with both normals, it vanishes to third order; noise does not.
+/// Lower quartile over neighbours of |(n + m) . (y - x)| / |y - x|: on a smooth surface, where the chord makes
+/// equal angles with both normals, it vanishes to third order; noise does not, and spares no place.
 fn mismatch(positions: &[Point], normals: &[Vector], neighbors: &[Vec<u32>]) -> f64 {
     let mut all: Vec<f64> = Vec::new();
     for (i, near) in neighbors.iter().enumerate() {
@@ -109,6 +110,6 @@ fn mismatch(positions: &[Point], normals: &[Vector], neighbors: &[Vec<u32>]) -> 
     if all.is_empty() {
         return 0.0;
     }
-    let middle = all.len() / 2;
-    *all.select_nth_unstable_by(middle, f64::total_cmp).1
+    let quarter = all.len() / 4;
+    *all.select_nth_unstable_by(quarter, f64::total_cmp).1
 }

@@ -1,4 +1,4 @@
-//! The pieces of a surface of revolution, told from planes that merely lie across its axis.
+//! How far parts go round their axis: planes that merely lie across it, helices that hardly turn.
 
 use std::f64::consts::TAU;
 
@@ -46,4 +46,24 @@ pub fn round(ground: &Ground, part: &Part, kind: &Kind) -> Option<Part> {
     let kept = part.retained(|i| !flat(i) || goes_round(i));
     let firm = kept.samples.iter().filter(|&&i| !flat(i)).count();
     (firm as f64 >= FIRM * kept.samples.len() as f64).then_some(kept)
+}
+
+/// Directions about the axis told apart, the fewest in which a surface of revolution lies, and a helix;
+/// ours: what is gently curved turns about some axis far away, and winds about more.
+const SECTORS: usize = 16;
+pub const ARC: usize = 3;
+pub const WINDING: usize = 12;
+
+/// The number of directions, of 16, in which the part lies from its axis.
+pub fn sectors(ground: &Ground, part: &Part, kind: &Kind) -> usize {
+    let axis = kind.axis.unwrap_or_default();
+    let e1 = any_orthogonal(&axis);
+    let e2 = axis.cross(&e1);
+    let mut seen = [false; SECTORS];
+    for &i in &part.samples {
+        let arm = ground.positions[i as usize] - kind.point;
+        let turns = arm.dot(&e2).atan2(arm.dot(&e1)).rem_euclid(TAU) / TAU;
+        seen[(turns * SECTORS as f64) as usize % SECTORS] = true;
+    }
+    seen.iter().filter(|s| **s).count()
 }

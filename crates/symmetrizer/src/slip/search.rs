@@ -7,7 +7,7 @@ use crate::sample::Samples;
 use crate::slip::classify::{Kind, classify};
 use crate::slip::fit::settle;
 use crate::slip::ground::Ground;
-use crate::slip::orbit::round;
+use crate::slip::orbit::{ARC, WINDING, round, sectors};
 use crate::slip::params::SlipParams;
 use crate::slip::part::Part;
 use crate::slip::starts::{neighborhoods, starts};
@@ -101,9 +101,11 @@ fn found(ground: &Ground, part: Part, twist: &Twist, fewest: usize) -> Option<Fo
         Slip::Plane => part.largest_piece(&ground.facing),
         Slip::Extrusion => part.largest_piece(&ground.around),
         Slip::Revolution => round(ground, &part, &kind)?,
+        Slip::Helix if sectors(ground, &part, &kind) < WINDING => return None,
         Slip::Cylinder | Slip::Sphere | Slip::Helix => part,
     };
-    if part.samples.len() < fewest {
+    let arc = kind.slip != Slip::Revolution || sectors(ground, &part, &kind) >= ARC;
+    if part.samples.len() < fewest || !arc {
         return None;
     }
     let rms = kind.rms(ground, &part.sliding, twist);
