@@ -230,7 +230,8 @@ fn a_spring_is_screwed() {
     assert_axis(&found, 0, Vector::z(), Point::origin());
     let axis = found.parts[0].axis.expect("an axis");
     let pitch = found.parts[0].pitch * found.working.normalization.scale;
-    assert!((pitch - 0.5 / TAU).abs() < 0.002, "{pitch} along {axis:?}");
+    // A facet's half width is seen as some hundredths of a degree of slope.
+    assert!((pitch - 0.5 / TAU).abs() < 0.004, "{pitch} along {axis:?}");
 }
 
 /// A box: its sides are drawn and its lids flat, or all are flat; nothing else.
@@ -250,7 +251,10 @@ fn a_box_is_flat_or_drawn() {
 /// A plate with a hole is flat, above and below, not turned.
 #[test]
 fn a_hole_does_not_make_a_plate_turn() {
-    let plate = [0.0, 0.1].map(|z| rectangle([-1.0, 1.0], [-1.0, 1.0], z));
+    let plate = [
+        rectangle([1.0, -1.0], [-1.0, 1.0], 0.0),
+        rectangle([-1.0, 1.0], [-1.0, 1.0], 0.1),
+    ];
     let hole = turned(&[[0.2, 0.0], [0.2, 0.1]], 4);
     let found = slides(&union(&union(&plate[0], &plate[1]), &hole), 3);
     assert_eq!(found.parts.len(), 2, "{:?}", kinds(&found));
@@ -313,7 +317,7 @@ fn the_vase_turns_about_its_axis_in_any_pose_and_with_noise() {
         (Vector::new(-2.1, 0.3, 1.1), 1e3, Vector::new(-5e4, 1e4, 3e4)),
     ];
     for (noise, share, angle, away) in
-        [(0.0, 0.97, 0.3, 0.2), (0.005, 0.8, 1.0, 0.7), (0.01, 0.6, 2.0, 1.5)]
+        [(0.0, 0.97, 0.3, 0.2), (0.001, 0.97, 0.3, 0.2), (0.002, 0.9, 0.5, 0.3), (0.005, 0.8, 1.0, 0.7), (0.01, 0.6, 2.0, 1.5)]
     {
         for (seed, (omega, scale, shift)) in (1..).zip(poses) {
             let moved = placed(&noisy(&vase, noise * vase.diagonal(), seed), omega, scale, shift);

@@ -9,10 +9,10 @@ use crate::slip::params::SlipParams;
 use crate::slip::twist::{Moments, Twist};
 
 /// Share of the mismatch of neighbouring fitted normals that is the error of one of them (ours).
-const NOISE_SHARE: f64 = 0.5;
+const NOISE_SHARE: f64 = 0.35;
 /// Angles up to this many tolerances count as sliding; ours. A surface that merely passes by the slide
-/// fills them evenly, or as the cube of the distance, with an rms of 1.7 or 1.3 tolerances.
-pub const GATE: f64 = 3.0;
+/// fills them evenly, or as the cube of the distance, with an rms of 2.3 or 1.5 tolerances.
+pub const GATE: f64 = 4.0;
 
 /// Samples with normals and tolerance.
 pub struct Ground {

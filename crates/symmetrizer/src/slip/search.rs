@@ -91,7 +91,7 @@ fn best(ground: &Ground, alive: &[bool], fewest: usize) -> Option<Found> {
 }
 
 /// The part as what it is; `None` where it is too small, or merely passes by the twist: angles that fill
-/// the gate evenly have an rms of .58 of it, above the tolerance.
+/// the gate have an rms above the tolerance.
 fn found(ground: &Ground, part: Part, twist: &Twist, fewest: usize) -> Option<Found> {
     if part.sliding.len() < fewest {
         return None;
