@@ -43,7 +43,10 @@ impl Slides {
     fn error(&self, k: usize, axis: &Vector, point: &Point) -> (f64, f64) {
         let found = &self.parts[k];
         let direction = found.axis.expect("an axis");
-        let angle = direction.cross(axis).norm().atan2(direction.dot(axis).abs());
+        let angle = direction
+            .cross(axis)
+            .norm()
+            .atan2(direction.dot(axis).abs());
         let at = self.working.normalization.to_working(point);
         let away = (at - found.point).cross(&direction).norm();
         (angle.to_degrees(), 100.0 * away / self.diagonal)
@@ -56,7 +59,10 @@ fn grid(rows: u32, columns: u32, x: impl Fn(f64, f64) -> Vector) -> Mesh {
     let mut mesh = Mesh::default();
     for i in 0..=rows {
         for j in 0..=columns {
-            let (u, v) = (f64::from(i) / f64::from(rows), f64::from(j) / f64::from(columns));
+            let (u, v) = (
+                f64::from(i) / f64::from(rows),
+                f64::from(j) / f64::from(columns),
+            );
             mesh.positions.push(Point::from(x(u, v)));
         }
     }
@@ -88,7 +94,11 @@ fn drawn(profile: &[[f64; 2]], height: f64) -> Mesh {
     let sides = (0..profile.len()).map(|k| {
         let (a, b) = (profile[k], profile[(k + 1) % profile.len()]);
         grid(10, 20, |u, v| {
-            Vector::new(a[0] + u * (b[0] - a[0]), a[1] + u * (b[1] - a[1]), v * height)
+            Vector::new(
+                a[0] + u * (b[0] - a[0]),
+                a[1] + u * (b[1] - a[1]),
+                v * height,
+            )
         })
     });
     sides.reduce(|a, b| union(&a, &b)).expect("a profile")
@@ -119,7 +129,10 @@ fn stretched(mesh: &Mesh, by: [f64; 3]) -> Mesh {
 }
 
 fn tin(radius: f64, height: f64) -> Mesh {
-    turned(&[[0.0, 0.0], [radius, 0.0], [radius, height], [0.0, height]], 12)
+    turned(
+        &[[0.0, 0.0], [radius, 0.0], [radius, height], [0.0, height]],
+        12,
+    )
 }
 
 /// The one part found, of a kind and a least share of the area.
@@ -134,7 +147,11 @@ fn assert_one(name: &str, mesh: &Mesh, slip: Slip, share: f64) -> Slides {
 }
 
 fn kinds(found: &Slides) -> Vec<(Slip, f64)> {
-    found.parts.iter().map(|c| (c.slip, c.area_fraction)).collect()
+    found
+        .parts
+        .iter()
+        .map(|c| (c.slip, c.area_fraction))
+        .collect()
 }
 
 fn assert_axis(found: &Slides, k: usize, axis: Vector, point: Point) {
@@ -159,7 +176,15 @@ fn turned_shapes_turn() {
         .collect();
     let lid = turned(&[[0.0, 0.0], [1.0, 0.0]], 16);
     let half_ball = union(&turned(&ring, 1), &lid);
-    let shaft = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.4], [0.5, 0.4], [0.5, 2.0], [0.3, 2.2], [0.0, 2.2]];
+    let shaft = [
+        [0.0, 0.0],
+        [1.0, 0.0],
+        [1.0, 0.4],
+        [0.5, 0.4],
+        [0.5, 2.0],
+        [0.3, 2.2],
+        [0.0, 2.2],
+    ];
     let shaft = turned(&shaft, 8);
     for (name, mesh, slip) in [
         ("torus", torus, Slip::Revolution),
@@ -167,8 +192,16 @@ fn turned_shapes_turn() {
         ("half a ball with its lid", half_ball, Slip::Revolution),
         ("tin", tin(1.0, 1.5), Slip::Revolution),
         ("shaft", shaft, Slip::Revolution),
-        ("pipe", turned(&[[0.5, 0.0], [0.5, 2.0]], 30), Slip::Cylinder),
-        ("spheroid", stretched(&sphere(5), [1.0, 1.0, 1.03]), Slip::Revolution),
+        (
+            "pipe",
+            turned(&[[0.5, 0.0], [0.5, 2.0]], 30),
+            Slip::Cylinder,
+        ),
+        (
+            "spheroid",
+            stretched(&sphere(5), [1.0, 1.0, 1.03]),
+            Slip::Revolution,
+        ),
     ] {
         let found = assert_one(name, &mesh, slip, 0.97);
         if name == "spheroid" {
@@ -191,7 +224,14 @@ fn a_ball_turns_about_its_middle() {
 #[test]
 fn a_handle_does_not_hide_the_mug() {
     let mug = turned(
-        &[[0.0, 0.1], [0.9, 0.1], [0.9, 2.0], [1.0, 2.0], [1.0, 0.0], [0.0, 0.0]],
+        &[
+            [0.0, 0.1],
+            [0.9, 0.1],
+            [0.9, 2.0],
+            [1.0, 2.0],
+            [1.0, 0.0],
+            [0.0, 0.0],
+        ],
         14,
     );
     let handle = tube(0.12, 40, |u| {
@@ -206,7 +246,14 @@ fn a_handle_does_not_hide_the_mug() {
 
 #[test]
 fn an_l_shaped_bar_is_drawn() {
-    let l = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.3], [0.3, 0.3], [0.3, 1.2], [0.0, 1.2]];
+    let l = [
+        [0.0, 0.0],
+        [1.0, 0.0],
+        [1.0, 0.3],
+        [0.3, 0.3],
+        [0.3, 1.2],
+        [0.0, 1.2],
+    ];
     let lids = [0.0, 3.0].map(|z| {
         union(
             &rectangle([0.0, 1.0], [0.0, 0.3], z),
@@ -242,7 +289,11 @@ fn a_box_is_flat_or_drawn() {
     let found = slides(&union(&sides, &union(&lids[0], &lids[1])), 3);
     assert!(!found.parts.is_empty());
     for c in &found.parts {
-        assert!(matches!(c.slip, Slip::Plane | Slip::Extrusion), "{:?}", kinds(&found));
+        assert!(
+            matches!(c.slip, Slip::Plane | Slip::Extrusion),
+            "{:?}",
+            kinds(&found)
+        );
     }
     let area: f64 = found.parts.iter().map(|c| c.area_fraction).sum();
     assert!(area > 0.95, "{area}");
@@ -310,17 +361,37 @@ fn axis_of_vase() -> Option<(Mesh, Vector, Point)> {
 
 #[test]
 fn the_vase_turns_about_its_axis_in_any_pose_and_with_noise() {
-    let Some((vase, axis, point)) = axis_of_vase() else { return };
+    let Some((vase, axis, point)) = axis_of_vase() else {
+        return;
+    };
     let poses = [
         (Vector::zeros(), 1.0, Vector::zeros()),
-        (Vector::new(0.4, -1.3, 0.8), 1e-3, Vector::new(0.1, 2.0, -1.0)),
-        (Vector::new(-2.1, 0.3, 1.1), 1e3, Vector::new(-5e4, 1e4, 3e4)),
+        (
+            Vector::new(0.4, -1.3, 0.8),
+            1e-3,
+            Vector::new(0.1, 2.0, -1.0),
+        ),
+        (
+            Vector::new(-2.1, 0.3, 1.1),
+            1e3,
+            Vector::new(-5e4, 1e4, 3e4),
+        ),
     ];
-    for (noise, share, angle, away) in
-        [(0.0, 0.97, 0.3, 0.2), (0.001, 0.97, 0.3, 0.2), (0.002, 0.9, 0.5, 0.3), (0.005, 0.8, 1.0, 0.7), (0.01, 0.6, 2.0, 1.5)]
-    {
+    for (noise, share, angle, away) in [
+        (0.0, 0.97, 0.3, 0.2),
+        (0.0005, 0.97, 0.3, 0.2),
+        (0.001, 0.97, 0.3, 0.2),
+        (0.002, 0.97, 0.3, 0.2),
+        (0.005, 0.95, 0.4, 0.2),
+        (0.01, 0.9, 0.9, 0.3),
+    ] {
         for (seed, (omega, scale, shift)) in (1..).zip(poses) {
-            let moved = placed(&noisy(&vase, noise * vase.diagonal(), seed), omega, scale, shift);
+            let moved = placed(
+                &noisy(&vase, noise * vase.diagonal(), seed),
+                omega,
+                scale,
+                shift,
+            );
             let r = exp_rotation(&omega);
             let found = slides(&moved, seed);
             assert!(!found.parts.is_empty(), "noise {noise}");
@@ -338,7 +409,9 @@ fn the_vase_turns_about_its_axis_in_any_pose_and_with_noise() {
 /// is flat.
 #[test]
 fn a_coupling_turns_about_its_axis() {
-    let Some(path) = data("3d/coupling_cad.off") else { return };
+    let Some(path) = data("3d/coupling_cad.off") else {
+        return;
+    };
     let found = slides(&load(&path), 3);
     assert_eq!(found.parts[0].slip, Slip::Revolution);
     assert!(found.parts[0].area_fraction > 0.5, "{:?}", kinds(&found));
@@ -398,6 +471,9 @@ fn slides_imply_their_own_isometries() {
         assert_eq!(implied(&pipe, &t), of_pipe, "pipe: {name}");
     }
     let middle = ball.parts[0].point;
-    assert!(implied(&ball, &about(Vector::new(0.6, 0.0, 0.8), middle, 2.0)));
+    assert!(implied(
+        &ball,
+        &about(Vector::new(0.6, 0.0, 0.8), middle, 2.0)
+    ));
     assert!(!implied(&ball, &shift(z * 0.05)));
 }

@@ -1,15 +1,18 @@
-//! The samples as slippage analysis sees them: positions, the better of two normals, what noise does
-//! to them, who is next to whom.
+//! The samples as slippage analysis sees them: positions, normals, what noise does to them, who is
+//! next to whom.
 
 use rayon::prelude::*;
 
 use crate::geom::{Point, PointIndex, Vector};
-use crate::sample::Samples;
+use crate::sample::{Sample, Samples};
 use crate::slip::params::SlipParams;
 use crate::slip::twist::{Moments, Twist};
 
-/// Share of the mismatch of neighbouring fitted normals that is the error of one of them (ours).
+/// Share of the mismatch of neighbouring normals that is the error of one of them; ours, measured on a
+/// surface of revolution with noise up to 1 % of D.
 const NOISE_SHARE: f64 = 0.35;
+/// Normals with smaller errors, radians, are clean; ours.
+const CLEAN: f64 = 0.001;
 /// Angles up to this many tolerances count as sliding; ours. A surface that merely passes by the slide
 /// fills them evenly, or as the cube of the distance, with an rms of 2.3 or 1.5 tolerances.
 pub const GATE: f64 = 4.0;
@@ -26,20 +29,27 @@ pub struct Ground {
     pub around: Vec<Vec<u32>>,
     /// Smallest distance between samples, fraction of L.
     pub spacing: f64,
+    /// rms error of the normals, radians, as neighbours tell.
+    pub noise: f64,
     /// rms angle, radians, up to which samples slide.
     pub tolerance: f64,
 }
 
 impl Ground {
-    /// That of `samples`.
-    pub fn new(samples: &Samples, params: &SlipParams) -> Self {
+    /// The ways to see `samples`: with normals that keep creases, and, where those are not clean, with
+    /// normals fitted over a neighbourhood, which noise spares and creases spoil.
+    pub fn views(samples: &Samples, params: &SlipParams) -> Vec<Self> {
+        let crisp = Self::new(samples, params, |s| s.crisp);
+        if crisp.noise <= CLEAN {
+            return vec![crisp];
+        }
+        vec![crisp, Self::new(samples, params, |s| s.frame.n)]
+    }
+
+    fn new(samples: &Samples, params: &SlipParams, normal: impl Fn(&Sample) -> Vector) -> Self {
         let positions: Vec<Point> = samples.list.iter().map(|s| s.position).collect();
-        let crisp: Vec<Vector> = samples.list.iter().map(|s| s.crisp).collect();
-        let fitted: Vec<Vector> = samples.list.iter().map(|s| s.frame.n).collect();
-        let of_crisp = mismatch(&positions, &crisp, &samples.neighbors);
-        let of_fitted = mismatch(&positions, &fitted, &samples.neighbors);
-        let noise = NOISE_SHARE * of_crisp.min(of_fitted);
-        if std::env::var_os("SLIPD").is_some() { eprintln!("mism crisp {of_crisp:.4} fitted {of_fitted:.4} tol {:.4} r0 {:.4} sp {:.4}", params.tolerance.hypot(noise), samples.radius, samples.spacing); }
+        let normals: Vec<Vector> = samples.list.iter().map(normal).collect();
+        let noise = NOISE_SHARE * mismatch(&positions, &normals, &samples.neighbors);
         let places: Vec<[f64; 3]> = positions.iter().map(|x| x.coords.into()).collect();
         let index = PointIndex::new(&places);
         let around = places
@@ -48,10 +58,11 @@ impl Ground {
             .collect();
         Self {
             positions,
-            normals: if of_crisp <= of_fitted { crisp } else { fitted },
+            normals,
             facing: samples.neighbors.clone(),
             around,
             spacing: samples.spacing,
+            noise,
             tolerance: params.tolerance.hypot(noise),
         }
     }
@@ -91,7 +102,10 @@ impl Ground {
 
     /// Where `samples` are on average.
     pub fn centroid(&self, samples: &[u32]) -> Point {
-        let sum: Vector = samples.iter().map(|&i| self.positions[i as usize].coords).sum();
+        let sum: Vector = samples
+            .iter()
+            .map(|&i| self.positions[i as usize].coords)
+            .sum();
         Point::from(sum / samples.len().max(1) as f64)
     }
 }

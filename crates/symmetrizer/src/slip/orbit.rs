@@ -48,10 +48,12 @@ pub fn round(ground: &Ground, part: &Part, kind: &Kind) -> Option<Part> {
     (firm as f64 >= FIRM * kept.samples.len() as f64).then_some(kept)
 }
 
-/// Directions about the axis told apart, the fewest in which a surface of revolution lies, and a helix;
-/// ours: what is gently curved turns about some axis far away, and winds about more.
+/// Directions about the axis told apart; ours.
 const SECTORS: usize = 16;
+/// Fewest of them in which a surface of revolution lies; ours: what is gently curved turns about some
+/// axis far away.
 pub const ARC: usize = 3;
+/// Fewest of them in which a helix lies; ours: by pitch and axis a screw fits more by chance.
 pub const WINDING: usize = 12;
 
 /// The number of directions, of 16, in which the part lies from its axis.

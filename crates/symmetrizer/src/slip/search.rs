@@ -36,36 +36,48 @@ impl Found {
         };
         self.part.samples.len() as f64 * (1.0 + FREEDOM * (freedoms - 1.0))
     }
+
+    fn continuous(self, count: usize) -> Continuous {
+        Continuous {
+            slip: self.kind.slip,
+            axis: self.kind.axis,
+            point: self.kind.point,
+            pitch: self.kind.pitch,
+            area_fraction: self.part.samples.len() as f64 / count as f64,
+            samples: self.part.samples,
+            rms: self.rms,
+        }
+    }
 }
 
 /// The parts of the surface that slide along themselves, the largest first; no sample is in two.
 pub fn continuous(samples: &Samples, params: &SlipParams) -> Vec<Continuous> {
-    let ground = Ground::new(samples, params);
-    let count = samples.list.len();
-    let fewest = (params.min_area * count as f64).ceil().max(1.0) as usize;
+    let views = Ground::views(samples, params);
+    let seen = views.iter().map(|ground| parts(ground, params.min_area));
+    let covered = |parts: &[Continuous]| parts.iter().map(|c| c.samples.len()).sum::<usize>();
+    seen.reduce(|a, b| if covered(&b) > covered(&a) { b } else { a })
+        .unwrap_or_default()
+}
+
+/// The parts of at least the share `min_area`, as one way of seeing the samples shows them.
+fn parts(ground: &Ground, min_area: f64) -> Vec<Continuous> {
+    let count = ground.positions.len();
+    let fewest = (min_area * count as f64).ceil().max(1.0) as usize;
     let mut alive = vec![true; count];
     let mut all = Vec::new();
     for _ in 0..ROUNDS {
         if alive.iter().filter(|a| **a).count() < fewest {
             break;
         }
-        let Some(found) = best(&ground, &alive, fewest) else {
+        let Some(found) = best(ground, &alive, fewest) else {
             break;
         };
         for &i in &found.part.samples {
             alive[i as usize] = false;
         }
-        all.push(Continuous {
-            slip: found.kind.slip,
-            axis: found.kind.axis,
-            point: found.kind.point,
-            pitch: found.kind.pitch,
-            area_fraction: found.part.samples.len() as f64 / count as f64,
-            samples: found.part.samples,
-            rms: found.rms,
-        });
+        all.push(found.continuous(count));
     }
-    all.sort_by(|a, b| b.samples.len().cmp(&a.samples.len()));
+    all.sort_by_key(|c| std::cmp::Reverse(c.samples.len()));
     all
 }
 
@@ -75,19 +87,22 @@ fn best(ground: &Ground, alive: &[bool], fewest: usize) -> Option<Found> {
         .filter(|&i| alive[i as usize])
         .collect();
     let patches = neighborhoods(ground, alive);
-    let sliding = starts(ground, &list, &patches).into_par_iter().filter_map(|start| {
-        let twist = settle(ground, &list, start)?;
-        let gate = ground.gate();
-        let part = Part::new(ground, alive, |i| ground.angle(&twist, i) < gate);
-        found(ground, part, &twist, fewest)
-    });
+    let sliding = starts(ground, &list, &patches)
+        .into_par_iter()
+        .filter_map(|start| {
+            let twist = settle(ground, &list, start)?;
+            let gate = ground.gate();
+            let part = Part::new(ground, alive, |i| ground.angle(&twist, i) < gate);
+            found(ground, part, &twist, fewest)
+        });
     let planes = patches.par_iter().filter_map(|patch| {
         let part = plane(ground, alive, patch)?;
         let twist = ground.moments(&part.sliding).twists()?[0];
         found(ground, part, &twist, fewest)
     });
     let all: Vec<Found> = sliding.chain(planes).collect();
-    all.into_iter().reduce(|a, b| if b.score() > a.score() { b } else { a })
+    all.into_iter()
+        .reduce(|a, b| if b.score() > a.score() { b } else { a })
 }
 
 /// The part as what it is; `None` where it is too small, or merely passes by the twist: angles that fill
@@ -104,7 +119,8 @@ fn found(ground: &Ground, part: Part, twist: &Twist, fewest: usize) -> Option<Fo
         Slip::Helix if sectors(ground, &part, &kind) < WINDING => return None,
         Slip::Cylinder | Slip::Sphere | Slip::Helix => part,
     };
-    let arc = kind.slip != Slip::Revolution || sectors(ground, &part, &kind) >= ARC;
+    let bends = matches!(kind.slip, Slip::Revolution | Slip::Cylinder);
+    let arc = !bends || sectors(ground, &part, &kind) >= ARC;
     if part.samples.len() < fewest || !arc {
         return None;
     }

@@ -48,7 +48,10 @@ pub fn starts(ground: &Ground, alive: &[u32], patches: &[Vec<u32>]) -> Vec<Twist
     rated.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut kept: Vec<Twist> = Vec::new();
     for (_, twist) in rated {
-        if kept.iter().all(|k| whole.correlation(k, &twist).abs() < ALIKE) {
+        if kept
+            .iter()
+            .all(|k| whole.correlation(k, &twist).abs() < ALIKE)
+        {
             kept.push(twist);
         }
         if kept.len() == KEPT {
@@ -67,7 +70,8 @@ pub fn neighborhoods(ground: &Ground, alive: &[bool]) -> Vec<Vec<u32>> {
         .collect();
     let mut found = Vec::new();
     for _ in 0..SEEDS {
-        let Some(seed) = (0..away.len()).max_by(|&a, &b| away[a].total_cmp(&away[b]).then(b.cmp(&a)))
+        let Some(seed) =
+            (0..away.len()).max_by(|&a, &b| away[a].total_cmp(&away[b]).then(b.cmp(&a)))
         else {
             break;
         };
