@@ -37,6 +37,11 @@ const HOUSE: &[Floor] = &[
         only: Some(&["error", "context", "geom", "shape"]),
     },
     floor(30, "pair"),
+    Floor {
+        module: "slip",
+        floor: 30,
+        only: Some(&["geom", "sample", "transform"]),
+    },
     floor(40, "cluster"),
     floor(50, "patch"),
     Floor {

@@ -1,6 +1,7 @@
 //! Samples of a surface and their signatures (section 2).
 
 pub mod blue_noise;
+pub mod crisp;
 pub mod probes;
 pub mod relief;
 pub mod samples;

@@ -6,6 +6,7 @@ use crate::context::Context;
 use crate::error::{Error, Result};
 use crate::geom::{Point, PointIndex, Vector, any_orthogonal};
 use crate::sample::blue_noise::blue_noise;
+use crate::sample::crisp::Corners;
 use crate::sample::relief::{Frame, Harmonics, Relief};
 use crate::sample::signature::{Signature, base_radius, describe};
 use crate::shape::curvature::Cloud;
@@ -34,6 +35,8 @@ pub struct Sample {
     pub position: Point,
     /// Unit normal of the surface as sampled.
     pub normal: Vector,
+    /// Unit normal that keeps creases, where `normal` is a mean across them.
+    pub crisp: Vector,
     /// Curvatures at three radii.
     pub signature: Signature,
     /// Direction of the larger curvature, where it is defined.
@@ -63,6 +66,7 @@ pub struct Samples {
 pub struct Describer<'a> {
     surface: &'a Surface,
     cloud: Cloud,
+    corners: Corners,
     harmonics: Harmonics,
     /// Radius of the smallest curvature fit, fraction of L.
     r0: f64,
@@ -75,6 +79,7 @@ impl<'a> Describer<'a> {
         Self {
             surface,
             cloud: Cloud::new(surface, r0 / 4.0),
+            corners: Corners::new(surface),
             harmonics: Harmonics::new(),
             r0,
         }
@@ -92,6 +97,7 @@ impl<'a> Describer<'a> {
             at: *at,
             position,
             normal: self.surface.normal(at),
+            crisp: self.corners.normal(self.surface, at),
             signature,
             e1,
             frame,

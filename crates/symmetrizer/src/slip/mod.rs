@@ -1,4 +1,20 @@
-//! Continuous symmetries: parts of a surface that slide along themselves.
+//! Continuous symmetries: parts of a surface that slide along themselves (Gelfand and Guibas 2004,
+//! slippage analysis). Beyond the paper: the velocity field of the sliding is settled robustly on the
+//! whole surface, so that the pieces of a turned part are found as one.
+
+mod classify;
+mod fit;
+mod ground;
+mod implies;
+mod orbit;
+mod params;
+mod part;
+mod search;
+mod starts;
+mod twist;
+
+pub use params::SlipParams;
+pub use search::continuous;
 
 use crate::geom::{Point, Vector};
 

@@ -3,6 +3,8 @@
 
 use std::path::{Path, PathBuf};
 
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
 use symmetrizer::geom::{Point, Vector, exp_rotation};
 use symmetrizer::shape::working::Working;
 use symmetrizer::shape::{Mesh, io};
@@ -129,4 +131,16 @@ pub fn union(a: &Mesh, b: &Mesh) -> Mesh {
         both.polygons.push(&corners);
     }
     both
+}
+
+/// The mesh with normally distributed noise of deviation `sigma` in each coordinate.
+pub fn noisy(mesh: &Mesh, sigma: f64, seed: u64) -> Mesh {
+    let mut rng = Pcg64::seed_from_u64(seed);
+    let mut moved = mesh.clone();
+    // The sum of twelve uniform numbers has variance 1.
+    let mut normal = || (0..12).map(|_| rng.random::<f64>()).sum::<f64>() - 6.0;
+    for p in &mut moved.positions {
+        *p += sigma * Vector::new(normal(), normal(), normal());
+    }
+    moved
 }
