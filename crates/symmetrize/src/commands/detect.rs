@@ -10,7 +10,7 @@ use symmetrizer::{Result, detect_in};
 use crate::Answer;
 use crate::files::{PictureFile, ReportFile, check_distinct, commit};
 use crate::input::{self, Input};
-use crate::options::{Desk, Tuning};
+use crate::options::{Desk, Sought, Tuning};
 use crate::summary;
 
 /// List the symmetries of a shape and of its parts
@@ -25,12 +25,15 @@ pub struct DetectArgs {
     #[arg(long, value_name = "FILE")]
     picture: Option<PathBuf>,
     #[command(flatten)]
+    sought: Sought,
+    #[command(flatten)]
     tuning: Tuning,
 }
 
 /// The verb.
 pub fn detect(args: &DetectArgs, desk: &Desk) -> Result<Answer> {
-    let params = args.tuning.resolve()?;
+    let mut params = args.tuning.resolve()?;
+    args.sought.narrow(&mut params)?;
     let (report, picture) = (args.report.as_deref(), args.picture.as_deref());
     let paths: Vec<_> = report.into_iter().chain(picture).collect();
     check_distinct(args.input.path(), &[], &paths)?;

@@ -9,7 +9,7 @@ use symmetrizer::{Result, detect_in};
 use crate::Answer;
 use crate::files::{PictureFile, check_distinct, commit};
 use crate::input::{self, Input};
-use crate::options::{Desk, Tuning};
+use crate::options::{Desk, Sought, Tuning};
 use crate::summary;
 
 /// Plot the votes for symmetries in transformation space
@@ -25,12 +25,15 @@ pub struct PlotArgs {
     #[arg(long, short, value_name = "FILE")]
     output: PathBuf,
     #[command(flatten)]
+    sought: Sought,
+    #[command(flatten)]
     tuning: Tuning,
 }
 
 /// The verb.
 pub fn plot(args: &PlotArgs, desk: &Desk) -> Result<Answer> {
-    let params = args.tuning.resolve()?;
+    let mut params = args.tuning.resolve()?;
+    args.sought.narrow(&mut params)?;
     check_distinct(args.input.path(), &[], &[&args.output])?;
     let file = PictureFile::reserve(&args.output)?;
     let mut ctx = desk.context();

@@ -3,8 +3,10 @@
 
 pub mod groups;
 mod search;
+pub mod wanted;
 
 pub use groups::Group;
+pub use wanted::{Want, Wanted};
 
 use crate::cluster::{ClusterParams, Votes};
 use crate::context::Context;
@@ -22,7 +24,7 @@ use crate::transform::{Class, TransformSpace};
 #[serde(default, deny_unknown_fields)]
 pub struct DetectParams {
     /// What is looked for.
-    pub classes: Vec<Class>,
+    pub wanted: Wanted,
     /// Samples.
     pub sample: SampleParams,
     /// Pairs.
@@ -36,7 +38,7 @@ pub struct DetectParams {
 impl Default for DetectParams {
     fn default() -> Self {
         Self {
-            classes: Class::ALL.to_vec(),
+            wanted: Wanted::default(),
             sample: SampleParams::default(),
             pair: PairParams::default(),
             cluster: ClusterParams::default(),
@@ -90,15 +92,16 @@ pub fn detect(
         closest: &closest,
         samples: &samples,
     };
+    let classes = params.wanted.classes();
     let probes = ctx.stage("probe", |ctx| {
-        let rigid = params.classes.iter().any(|&c| c != Class::Mirror);
+        let rigid = classes.iter().any(|&c| c != Class::Mirror);
         let count = if rigid { params.sample.count } else { 0 };
         Ok(probes(surface, &samples, count, &mut ctx.rng("probe")))
     })?;
     let mut clouds = Vec::new();
     let mut symmetries: Vec<Symmetry> = Vec::new();
     let mut refused = Vec::new();
-    for &class in &params.classes {
+    for class in classes {
         let pairs = ctx.stage("pair", |ctx| match class {
             Class::Mirror => mirror_pairs(&samples, &params.pair, ctx),
             _ => rigid_pairs(&probes, class, &space, &params.pair, ctx),
