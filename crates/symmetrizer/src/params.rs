@@ -98,7 +98,7 @@ impl Params {
             let name = end.split(['[', ']']).nth(1).unwrap_or_default();
             for line in end.lines() {
                 let _ = match range_of(&format!("{name}.{}", field_in(line))) {
-                    Some(range) => writeln!(text, "{line:<32}# {range}"),
+                    Some(range) => writeln!(text, "{line:<31} # {range}"),
                     None => writeln!(text, "{line}"),
                 };
             }

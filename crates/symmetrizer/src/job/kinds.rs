@@ -45,7 +45,9 @@ fn is_telling(n: u32, found: &Elements, space: &TransformSpace, error: f64) -> b
     let Some(axis) = found.axis else {
         return false;
     };
-    let turns = error / (space.radius_about(&found.point, &axis) * std::f64::consts::TAU);
+    // What tells the angle is the patch's own extent, not its distance from the axis.
+    let radius = space.radius_about(&space.centre(), &axis);
+    let turns = error / (radius * std::f64::consts::TAU);
     n <= 2 || turns * f64::from(n * n) <= BY_CHANCE
 }
 
