@@ -20,7 +20,7 @@ use crate::slip::Continuous;
 use crate::transform::{Class, TransformSpace};
 
 /// Parameters of detection, a section for each stage.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DetectParams {
     /// What is looked for.
@@ -33,18 +33,6 @@ pub struct DetectParams {
     pub cluster: ClusterParams,
     /// Patches.
     pub patch: PatchParams,
-}
-
-impl Default for DetectParams {
-    fn default() -> Self {
-        Self {
-            wanted: Wanted::default(),
-            sample: SampleParams::default(),
-            pair: PairParams::default(),
-            cluster: ClusterParams::default(),
-            patch: PatchParams::default(),
-        }
-    }
 }
 
 /// The votes of one class.

@@ -16,6 +16,9 @@ const COLUMNS: usize = 3;
 const CAPTION: u32 = 48;
 /// Side of the small picture in which the visible parts are counted, pixels.
 const GLANCE: u32 = 120;
+/// Width of the lines that shine through the shape, and length of an arrow's barbs, pixels.
+const THIN: f64 = 1.8;
+const BARB: f64 = 11.0;
 /// The colour of what is not in a part, sRGB.
 const REST: [u8; 3] = [205, 202, 198];
 
@@ -80,7 +83,8 @@ impl Gallery<'_> {
             20.0,
         );
         canvas.text(title.bold().within(f64::from(page_width - 2 * MARGIN)));
-        let views = views(&Stance::about(self.upright.as_ref(), self.positions));
+        let stance = Stance::about(self.upright.as_ref(), self.positions);
+        let views = views(&stance);
         for (k, exhibit) in self.exhibits.iter().enumerate() {
             let [column, row] = [k % COLUMNS, k / COLUMNS].map(|c| c as u32);
             let at = [MARGIN + column * width, top + row * (height + CAPTION)];
@@ -89,7 +93,13 @@ impl Gallery<'_> {
         canvas
     }
 
-    fn draw(&self, exhibit: &Exhibit, views: &[View], canvas: &mut Canvas, [x, y]: [u32; 2]) {
+    fn draw(
+        &self,
+        exhibit: &Exhibit,
+        views: &[(View, f64)],
+        canvas: &mut Canvas,
+        [x, y]: [u32; 2],
+    ) {
         let part = self.part_of_faces(exhibit);
         let mut seen = shown(self.positions, self.triangles, &exhibit.planes);
         seen.extend(exhibit.rods.iter().flat_map(|r| [r.from, r.to]));
@@ -97,12 +107,9 @@ impl Gallery<'_> {
         let camera = matching_cameras(&[view], &seen, self.size)[0];
         canvas.image(x, y + CAPTION, self.picture(exhibit, &part, &camera));
         let [left, top] = [x, y].map(f64::from);
+        let corner = [left, top + f64::from(CAPTION)];
         for rod in &exhibit.rods {
-            let end = |p: &Point| {
-                let at = camera.project(p);
-                [left + at.x, top + f64::from(CAPTION) + at.y]
-            };
-            canvas.line(end(&rod.from), end(&rod.to), 1.2, rod.color);
+            shine(rod, &camera, corner, canvas);
         }
         let width = f64::from(self.size[0]) - 12.0;
         let caption = Text::new(exhibit.caption.clone(), left, top + 18.0, 16.0);
@@ -159,9 +166,11 @@ impl Gallery<'_> {
     }
 
     /// The view in which most of all parts is seen: the sum of the square roots of what is seen of
-    /// each is largest, so that no part is hidden for the sake of another. Of equals the first.
-    fn best(&self, views: &[View], part: &[Option<usize>], parts: usize) -> View {
-        let cameras = matching_cameras(views, self.positions, [GLANCE; 2]);
+    /// each, times the view's own worth, is largest, so that no part is hidden for the sake of
+    /// another. Of equals the first.
+    fn best(&self, views: &[(View, f64)], part: &[Option<usize>], parts: usize) -> View {
+        let directions: Vec<View> = views.iter().map(|v| v.0).collect();
+        let cameras = matching_cameras(&directions, self.positions, [GLANCE; 2]);
         let score = |camera: &Camera| -> f64 {
             let projected: Vec<_> = self.positions.iter().map(|p| camera.project(p)).collect();
             let sights = Sights::new(GLANCE as usize, GLANCE as usize, &projected, self.triangles);
@@ -173,9 +182,9 @@ impl Gallery<'_> {
             }
             seen.into_iter().map(f64::sqrt).sum()
         };
-        let mut best = (views[0], f64::NEG_INFINITY);
-        for (view, camera) in views.iter().zip(&cameras) {
-            let score = score(camera);
+        let mut best = (directions[0], f64::NEG_INFINITY);
+        for ((view, worth), camera) in views.iter().zip(&cameras) {
+            let score = worth * score(camera);
             if score > best.1 * (1.0 + 1e-9) {
                 best = (*view, score);
             }
@@ -184,16 +193,46 @@ impl Gallery<'_> {
     }
 }
 
-/// The views to choose from: between the sides and above first, because they show most of a shape.
-fn views(stance: &Stance) -> Vec<View> {
+/// A rod as a thin line, where the shape hides it too.
+fn shine(rod: &Rod, camera: &Camera, [left, top]: [f64; 2], canvas: &mut Canvas) {
+    let place = |p: &Point| {
+        let at = camera.project(p);
+        [left + at.x, top + at.y]
+    };
+    let (from, to) = (place(&rod.from), place(&rod.to));
+    canvas.line(from, to, THIN, rod.color);
+    let along = [to[0] - from[0], to[1] - from[1]];
+    let length = along[0].hypot(along[1]);
+    if rod.arrow && length > 1.0 {
+        let [dx, dy] = along.map(|c| BARB * c / length);
+        for [x, y] in [
+            [-dx - 0.5 * dy, -dy + 0.5 * dx],
+            [-dx + 0.5 * dy, -dy - 0.5 * dx],
+        ] {
+            canvas.line([to[0] + x, to[1] + y], to, THIN, rod.color);
+        }
+    }
+}
+
+/// The views to choose from, each with what it is worth: between the sides and above first, because
+/// they look natural and show most of a shape; those straight along an axis show no depth, those from
+/// below what nobody sees.
+fn views(stance: &Stance) -> Vec<(View, f64)> {
     let right = stance.up.cross(&stance.front);
     let from = |x: f64, y: f64, z: f64| {
         let eye = right * x + stance.up * y + stance.front * z;
         View::new(-eye, stance.up)
     };
-    let mut views = vec![stance.view(Angle::ThreeQuarter), from(-0.8, 0.42, 1.0)];
-    views.extend([from(0.8, 0.42, -1.0), from(-0.8, 0.42, -1.0)]);
-    views.extend([from(0.6, 1.4, 0.8), from(0.6, -1.0, 0.8)]);
-    views.extend(Angle::ALL.map(|a| stance.view(a)));
+    let mut views = vec![
+        (stance.view(Angle::ThreeQuarter), 1.0),
+        (from(-0.8, 0.42, 1.0), 1.0),
+    ];
+    views.extend([
+        (from(0.8, 0.42, -1.0), 0.97),
+        (from(-0.8, 0.42, -1.0), 0.97),
+    ]);
+    views.extend([(from(0.6, 1.4, 0.8), 0.97), (from(0.6, -1.0, 0.8), 0.75)]);
+    let straight = [Angle::Front, Angle::Side, Angle::Back, Angle::Top];
+    views.extend(straight.map(|a| (stance.view(a), 0.8)));
     views
 }

@@ -16,6 +16,9 @@ const PANELS: usize = 6;
 const THIN: f64 = 0.004;
 /// How far an axis reaches beyond the shape, fraction of L.
 const BEYOND: f64 = 0.06;
+/// An axis is drawn where its point nearest to the patch is no further from the shape's centroid than
+/// this many of the shape's radii.
+const FAR: f64 = 1.3;
 /// How much of an image's colour is white; what is patch and image has half of it.
 const TINT: f64 = 0.6;
 
@@ -73,10 +76,11 @@ impl Show<'_> {
         let mut exhibit = self.drawn(&elements, color);
         exhibit.caption = format!("{}: {}", symmetry.id, named(&elements));
         exhibit.note = share(symmetry.area_fraction);
-        if matches!(
+        let shifts = matches!(
             elements.kind,
             Kind::Translation | Kind::Glide | Kind::Inversion
-        ) {
+        );
+        if shifts || self.is_far(&elements) {
             let from = self.middle(symmetry);
             let to = elements.isometry().apply(&from);
             exhibit.rods.push(arrow(from, to, color));
@@ -159,7 +163,7 @@ impl Show<'_> {
     /// Planes and axes of an isometry.
     fn drawn(&self, elements: &Elements, color: [u8; 3]) -> Exhibit {
         let mut exhibit = Exhibit::empty();
-        let Some(axis) = elements.axis else {
+        let Some(axis) = elements.axis.filter(|_| !self.is_far(elements)) else {
             return exhibit;
         };
         let through = (Plane::through(&elements.point, axis), color);
@@ -182,6 +186,13 @@ impl Show<'_> {
         exhibit
     }
 
+    /// Whether an axis or fixed point lies so far from the shape that a picture of both shows neither.
+    fn is_far(&self, elements: &Elements) -> bool {
+        let positions = self.found.working.surface.positions.iter();
+        let reach = positions.map(|p| p.coords.norm()).fold(0.0, f64::max);
+        elements.point.coords.norm() > FAR * reach
+    }
+
     /// The axis through `point`, along the shape and a little beyond.
     fn axis(&self, point: &Point, axis: &Vector, color: [u8; 3]) -> Rod {
         let along = |p: &Point| axis.dot(&(p - point));
@@ -192,7 +203,7 @@ impl Show<'_> {
             to: point + axis * (high + BEYOND),
             radius: THIN,
             arrow: false,
-            color,
+            color: dark(color),
         }
     }
 
@@ -216,23 +227,33 @@ fn arrow(from: Point, to: Point, color: [u8; 3]) -> Rod {
         to,
         radius: 1.5 * THIN,
         arrow: true,
-        color,
+        color: dark(color),
     }
 }
 
-/// The kind with its angle and order.
+/// The kind with its angle, order and shift.
 fn named(elements: &Elements) -> String {
-    let turns = matches!(
-        elements.kind,
-        Kind::Rotation | Kind::Screw | Kind::Rotoreflection
-    );
-    let kind = elements.kind.name();
-    let angle = elements.angle.to_degrees().abs();
-    match elements.order.filter(|_| turns) {
-        Some(order) => format!("{kind} by {angle:.1}°, order {order}"),
-        None if turns => format!("{kind} by {angle:.1}°"),
-        None => kind.to_owned(),
+    let kind = elements.kind;
+    let mut by = Vec::new();
+    if matches!(kind, Kind::Rotation | Kind::Screw | Kind::Rotoreflection) {
+        by.push(format!("{:.1}°", elements.angle.to_degrees().abs()));
     }
+    if matches!(kind, Kind::Translation | Kind::Screw | Kind::Glide) {
+        by.push(format!("{:.1} % of L", 100.0 * elements.shift.norm()));
+    }
+    let mut text = kind.name().to_owned();
+    if !by.is_empty() {
+        text += &format!(" by {}", by.join(" and "));
+    }
+    match elements.order {
+        Some(order) => format!("{text}, order {order}"),
+        None => text,
+    }
+}
+
+/// The colour of lines upon parts of `color`.
+fn dark(color: [u8; 3]) -> [u8; 3] {
+    color.map(|c| c / 2)
 }
 
 fn share(area: f64) -> String {

@@ -28,8 +28,8 @@ pub fn density(found: &Detected, bandwidth: f64, title: &str) -> Canvas {
     let mut canvas = Canvas::new(side * clouds.len().max(1) as u32, side + top);
     let width = f64::from(canvas.width()) - 32.0;
     canvas.text(Text::new(title, 16.0, 28.0, 20.0).bold().within(width));
-    for cloud in 0..clouds.len() {
-        let projection = Projection::new(clouds[cloud].votes.points());
+    for (cloud, of_class) in clouds.iter().enumerate() {
+        let projection = Projection::new(of_class.votes.points());
         let votes = Votes::new(found, cloud, found, &projection);
         let title = plot_title(found, cloud);
         let plot = votes.plot(bandwidth, None, &title);
