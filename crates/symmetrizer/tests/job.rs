@@ -117,11 +117,13 @@ fn seams_and_loose_vertices_move_along_or_stay() {
 #[test]
 fn detection_alone_finds_what_the_job_finds() {
     let (mesh, job) = creature();
-    let found = detect_in(&mesh, &fast(), &mut Context::new(3)).unwrap();
+    let mut params = fast();
+    params.set("detect.kinds", "[\"mirror\"]").unwrap();
+    let found = detect_in(&mesh, &params, &mut Context::new(3)).unwrap();
     let planes = |d: &symmetrizer::Detected| -> Vec<_> {
         let symmetries = d.symmetries().iter();
         symmetries
-            .map(|s| (s.id, s.plane, s.height.to_bits()))
+            .map(|s| (s.id, s.plane(), s.height.to_bits()))
             .collect()
     };
     assert_eq!(planes(&found), planes(&job.before));
