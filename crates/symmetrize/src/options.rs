@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use symmetrizer::detect::Want;
 use symmetrizer::{CancelToken, Context, Error, Params, Result};
 
 use crate::progress::Progress;
@@ -30,6 +31,26 @@ pub struct Tuning {
     /// Set one parameter, say optimize.step=0.1; may be repeated, counts over --params
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
+}
+
+/// The flag that says what is looked for.
+#[derive(Args)]
+pub struct Sought {
+    /// What to look for, with commas: mirror, rotation, translation, screw, glide, rotoreflection,
+    /// inversion, continuous [default: all of them]
+    #[arg(long, value_name = "KINDS", value_delimiter = ',')]
+    classes: Vec<String>,
+}
+
+impl Sought {
+    /// Sets what is looked for in `params`, where the flag was given.
+    pub fn narrow(&self, params: &mut Params) -> Result<()> {
+        if !self.classes.is_empty() {
+            let wants = self.classes.iter().map(|name| name.trim().parse::<Want>());
+            params.detect.kinds = wants.collect::<Result<_>>()?;
+        }
+        Ok(())
+    }
 }
 
 impl Tuning {

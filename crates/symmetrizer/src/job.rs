@@ -1,11 +1,12 @@
 //! The whole paper: detection, contraction, merging and the figures before and after, in a row.
 
+pub mod kinds;
 mod measured;
 pub mod pictures;
 
 use crate::apply::measure::{Asymmetry, AsymmetryReport, asymmetry, distortion};
 use crate::context::Context;
-use crate::detect::{DetectParams, Detection, detect};
+use crate::detect::{DetectParams, Detection, Group, Wanted, detect};
 use crate::error::Result;
 use crate::optimize::schedule::Settings;
 use crate::optimize::{Optimized, Outcome, optimize};
@@ -15,7 +16,7 @@ use crate::report::faces::FaceSamples;
 use crate::report::{Head, InputReport, Report, ResultReport, symmetry};
 use crate::shape::working::{Mended, Working};
 use crate::shape::{Document, Mesh};
-use crate::transform::{Class, Plane};
+use crate::transform::{Elements, Plane};
 
 pub use measured::{Measured, measure_in};
 
@@ -96,7 +97,7 @@ fn find_in(
 /// What is made exact: mirrors.
 fn to_enhance(params: &Params) -> DetectParams {
     DetectParams {
-        classes: vec![Class::Mirror],
+        wanted: Wanted::mirrors(),
         ..params.detect()
     }
 }
@@ -189,9 +190,11 @@ impl Detected {
         params: &DetectParams,
         ctx: &mut Context<'_>,
     ) -> Result<Self> {
+        let mut detection = detect(&working.surface, params, ctx)?;
+        kinds::keep_wanted(&mut detection, &params.wanted);
         Ok(Self {
             diagonal: diagonal / working.normalization.scale,
-            detection: detect(&working.surface, params, ctx)?,
+            detection,
             working,
         })
     }
@@ -199,6 +202,17 @@ impl Detected {
     /// The symmetries, the highest first.
     pub fn symmetries(&self) -> &[Symmetry] {
         &self.detection.symmetries
+    }
+
+    /// The kind and the elements of one of its symmetries, working coordinates.
+    pub fn elements(&self, symmetry: &Symmetry) -> Elements {
+        kinds::elements(symmetry, &self.detection.samples)
+    }
+
+    /// The group that a symmetry belongs to, the first of several.
+    pub fn group_of(&self, id: u32) -> Option<&Group> {
+        let mut groups = self.detection.groups.iter();
+        groups.find(|g| g.symmetries.contains(&id))
     }
 
     /// How far this state is from symmetric; its symmetries' planes and `known` ones are tried

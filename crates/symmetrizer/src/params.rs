@@ -7,19 +7,20 @@ use toml::{Table, Value};
 
 use crate::cluster::ClusterParams;
 use crate::deform::primo::DeformParams;
-use crate::detect::DetectParams;
+use crate::detect::{DetectParams, Want, Wanted};
 use crate::error::{Error, Result};
 use crate::optimize::params::OptimizeParams;
 use crate::pair::PairParams;
 use crate::patch::PatchParams;
 use crate::sample::SampleParams;
-use crate::transform::Class;
 
 /// Parameters of [`crate::symmetrize`]. A parameter's dotted name is that of its section and its
 /// field, `optimize.step`, in files, in `--set` and in errors.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Params {
+    /// What is looked for.
+    pub detect: Wanted,
     /// Samples.
     pub sample: SampleParams,
     /// Pairs.
@@ -36,7 +37,7 @@ pub struct Params {
 
 /// What each parameter may be. The limits keep work and memory finite and formulas defined; within
 /// them not every value is wise.
-const RANGES: [(&str, f64, f64); 34] = [
+const RANGES: [(&str, f64, f64); 35] = [
     ("sample.count", 100.0, 20_000.0),
     ("pair.tolerance", 1e-6, 100.0),
     ("pair.partners", 1.0, 1000.0),
@@ -51,6 +52,7 @@ const RANGES: [(&str, f64, f64); 34] = [
     ("pair.max_gap", 1e-6, 10.0),
     ("patch.copy_tolerance", 1e-6, 0.5),
     ("patch.max_filled", 0.0, 2.0),
+    ("patch.max_chance", 0.0, 1.0),
     ("patch.max_unlikeness", 0.0, 2.0),
     ("patch.min_copy", 0.0, 1.0),
     ("patch.min_firmness", 0.0, 1.0),
@@ -72,6 +74,9 @@ const RANGES: [(&str, f64, f64); 34] = [
     ("optimize.finish_asymmetry", 0.0, 1.0),
     ("optimize.max_deformation", 0.0, f64::MAX),
 ];
+
+/// The one parameter that is a list of names; its type knows them.
+const KINDS: &str = "detect.kinds";
 
 impl Params {
     /// The parameters in a TOML document; those it does not name have their defaults.
@@ -96,7 +101,7 @@ impl Params {
             let name = end.split(['[', ']']).nth(1).unwrap_or_default();
             for line in end.lines() {
                 let _ = match range_of(&format!("{name}.{}", field_in(line))) {
-                    Some(range) => writeln!(text, "{line:<32}# {range}"),
+                    Some(range) => writeln!(text, "{line:<31} # {range}"),
                     None => writeln!(text, "{line}"),
                 };
             }
@@ -133,11 +138,15 @@ impl Params {
         Ok(())
     }
 
-    /// Checks every parameter's range.
+    /// Checks every parameter's range, and that there is something to look for.
     ///
     /// # Errors
     /// [`Error::Params`] with the first one out of it.
     pub fn check(&self) -> Result<()> {
+        if self.detect.kinds.is_empty() {
+            let what = format!("nothing to look for; there are {}", Want::names());
+            return Err(Error::params(KINDS, what));
+        }
         for (name, low, high) in RANGES {
             let inside = |x: &f64| (low..=high).contains(x);
             if let Some(x) = self.numbers(name).into_iter().find(|x| !inside(x)) {
@@ -151,7 +160,7 @@ impl Params {
     /// The sections that detection takes.
     pub fn detect(&self) -> DetectParams {
         DetectParams {
-            classes: Class::ALL.to_vec(),
+            wanted: self.detect.clone(),
             sample: self.sample.clone(),
             pair: self.pair.clone(),
             cluster: self.cluster.clone(),
@@ -256,6 +265,9 @@ fn misfit(name: &str, error: &toml::de::Error) -> Error {
 }
 
 fn range_of(name: &str) -> Option<String> {
+    if name == KINDS {
+        return Some(format!("any of {}", Want::names()));
+    }
     let (_, low, high) = RANGES.iter().find(|r| r.0 == name)?;
     Some(between(*low, *high))
 }
@@ -313,6 +325,9 @@ mod tests {
         params.set("optimize.step", "0.1").unwrap();
         params.set("optimize.max_deformation", "0.02").unwrap();
         params.set("sample.count", "500").unwrap();
+        let kinds = "[\"glide\", \"continuous\"]";
+        params.set("detect.kinds", kinds).unwrap();
+        assert_eq!(params.detect.kinds, [Want::Glide, Want::Continuous]);
         assert_eq!(Params::from_toml(&params.to_toml()).unwrap(), params);
         params.set("optimize.max_deformation", "none").unwrap();
         assert_eq!(params.optimize.max_deformation, None);
@@ -334,6 +349,14 @@ mod tests {
         };
         fails("optimize.stepp", "1", "optimize.redetect_every");
         fails("nothing", "1", "sample.count");
+        fails(
+            "detect.kinds",
+            "[\"mirror\", \"spiral\"]",
+            "unknown variant `spiral`",
+        );
+        fails("detect.kinds", "[\"identity\"]", "`rotation`");
+        fails("detect.kinds", "mirror", "expected a sequence");
+        fails("detect.kinds", "[]", "nothing to look for");
         fails("optimize", "1", "optimize.step");
         fails("optimize.step", "fast", "string \"fast\", expected f64");
         fails("optimize.step", "nan", "out of range: 0.001..=1");

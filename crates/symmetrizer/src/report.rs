@@ -5,7 +5,10 @@
 //! asymmetry and distortion are in percent of the diagonal D.
 
 pub mod faces;
+pub mod groups;
 mod json;
+pub mod place;
+pub mod refusals;
 pub mod symmetry;
 mod validate;
 
@@ -21,7 +24,9 @@ use crate::report::faces::FaceSamples;
 use crate::shape::working::Working;
 use crate::shape::{Mesh, Validation};
 
-pub use symmetry::{RefusalReport, SymmetryReport};
+pub use groups::{ContinuousReport, GroupReport};
+pub use refusals::{RefusalReport, RefusedCount};
+pub use symmetry::SymmetryReport;
 pub use validate::ValidateReport;
 
 /// The number of the report's format; it changes when a key changes its meaning.
@@ -133,8 +138,14 @@ pub struct InputReport {
     pub shape: ShapeReport,
     /// The symmetries found, the highest first.
     pub symmetries: Vec<SymmetryReport>,
-    /// Clusters that were looked at and are no symmetries.
+    /// Which of them belong together.
+    pub groups: Vec<GroupReport>,
+    /// Parts that slide along themselves.
+    pub continuous: Vec<ContinuousReport>,
+    /// The highest clusters of each class that were looked at and are no symmetries.
     pub refused: Vec<RefusalReport>,
+    /// All of those by reason.
+    pub refused_counts: Vec<RefusedCount>,
 }
 
 /// A shape and its symmetries after the work.
@@ -238,14 +249,13 @@ impl InputReport {
         faces: &FaceSamples,
         asymmetry: Option<AsymmetryReport>,
     ) -> Self {
-        let refused = found.detection.refused.iter();
-        let normalization = &found.working.normalization;
         Self {
             shape: ShapeReport::new(mesh, &found.working, asymmetry),
             symmetries: symmetry::all(found, faces),
-            refused: refused
-                .map(|r| RefusalReport::new(r, normalization))
-                .collect(),
+            groups: groups::groups(found, faces),
+            continuous: groups::continuous(found, faces),
+            refused: refusals::highest(found),
+            refused_counts: refusals::counts(found),
         }
     }
 }

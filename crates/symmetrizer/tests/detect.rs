@@ -88,7 +88,7 @@ fn planes(mesh: &Mesh, seed: u64) -> Vec<Plane> {
     found
         .symmetries
         .iter()
-        .map(|s| to_document(&s.plane))
+        .map(|s| to_document(&s.plane()))
         .collect()
 }
 
@@ -171,7 +171,7 @@ fn a_shape_without_symmetry_has_none() {
         let planes: Vec<_> = found
             .symmetries
             .iter()
-            .map(|s| (s.plane, s.confusion))
+            .map(|s| (s.plane(), s.confusion))
             .collect();
         assert!(planes.is_empty(), "seed {seed}: {planes:?}");
         assert!(!found.refused.is_empty(), "what was looked at is listed");
@@ -189,8 +189,8 @@ fn transcript(mesh: &Mesh, threads: usize) -> String {
         let samples = &found.samples.list;
         format!(
             "{samples:?} {:?} {:?} {:?} {:?}",
-            found.pairs,
-            found.votes.points(),
+            found.clouds.iter().map(|c| &c.pairs).collect::<Vec<_>>(),
+            found.clouds[0].votes.points(),
             found.symmetries,
             found.refused
         )

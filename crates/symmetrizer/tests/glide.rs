@@ -15,14 +15,14 @@ use symmetrizer::shape::{ClosestPoint, Surface};
 
 /// The pairs that voted for the highest mode, as sampled: nothing has matched them to the surface.
 fn raw_couples(found: &Detection) -> Vec<Couple> {
-    let votes = Votes::new(&found.pairs, &found.space);
+    let votes = Votes::new(&found.clouds[0].pairs, &found.space);
     let clusters = votes.clusters(&ClusterParams::default());
     let list = &found.samples.list;
     clusters[0]
         .votes
         .iter()
         .map(|&i| {
-            let pair = &found.pairs[i as usize];
+            let pair = &found.clouds[0].pairs[i as usize];
             Couple {
                 sample: pair.p,
                 p: list[pair.p as usize].at,

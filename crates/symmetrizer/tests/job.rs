@@ -58,7 +58,8 @@ fn check(s: &SymmetryReport, mesh: &Mesh, tolerance: f64) {
     let shift = Vector::from_fn(|r, _| s.matrix[r][3]);
     assert_eq!(s.matrix[3], [0.0, 0.0, 0.0, 1.0]);
     assert!((linear * linear - Matrix3::identity()).norm() < 1e-12);
-    let normal = Vector::from(s.plane.normal);
+    let plane = s.plane.expect("a mirror has a plane");
+    let normal = Vector::from(plane.normal);
     assert!(normal[normal.iamax()] > 0.0);
     assert!((linear * normal + normal).norm() < 1e-12);
     let position = |v: u32| mesh.positions[v as usize];
@@ -75,7 +76,7 @@ fn check(s: &SymmetryReport, mesh: &Mesh, tolerance: f64) {
             .iter()
             .map(|&v| position(v).coords / 3.0)
             .sum();
-        normal.dot(&middle) - s.plane.offset
+        normal.dot(&middle) - plane.offset
     };
     assert!(s.patch_faces.iter().all(|f| side(f) < 1e-6));
     assert!(s.image_faces.iter().all(|f| side(f) > -1e-6));
@@ -116,11 +117,13 @@ fn seams_and_loose_vertices_move_along_or_stay() {
 #[test]
 fn detection_alone_finds_what_the_job_finds() {
     let (mesh, job) = creature();
-    let found = detect_in(&mesh, &fast(), &mut Context::new(3)).unwrap();
+    let mut params = fast();
+    params.set("detect.kinds", "[\"mirror\"]").unwrap();
+    let found = detect_in(&mesh, &params, &mut Context::new(3)).unwrap();
     let planes = |d: &symmetrizer::Detected| -> Vec<_> {
         let symmetries = d.symmetries().iter();
         symmetries
-            .map(|s| (s.id, s.plane, s.height.to_bits()))
+            .map(|s| (s.id, s.plane(), s.height.to_bits()))
             .collect()
     };
     assert_eq!(planes(&found), planes(&job.before));

@@ -95,7 +95,7 @@ struct RawGroup {
     name: String,
     axis: Option<[f64; 3]>,
     point: Option<[f64; 3]>,
-    step: Option<[f64; 3]>,
+    step_vector: Option<[f64; 3]>,
     #[serde(default)]
     orbit: Vec<Vec<u32>>,
 }
@@ -176,7 +176,7 @@ fn group(raw: RawGroup, place: &Placement) -> Group {
     Group {
         name: raw.name,
         axis: axis(raw.axis, raw.point, place),
-        step: raw.step.map(|s| place.step_back(s.into())),
+        step: raw.step_vector.map(|s| place.step_back(s.into())),
         orbit: raw.orbit,
     }
 }
@@ -222,7 +222,7 @@ mod tests {
                 "patch_faces": [0, 1], "image_faces": [2],
             }],
             "groups": [{
-                "name": "C5", "order": 5, "axis": axis, "point": point, "step": along.as_slice(),
+                "name": "C5", "order": 5, "axis": axis, "point": point, "step_vector": along.as_slice(),
                 "symmetries": [0], "orbit": [[0, 1], [2]],
             }],
             "continuous": [{ "kind": "revolution", "axis": axis, "point": point }],

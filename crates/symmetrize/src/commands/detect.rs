@@ -10,10 +10,13 @@ use symmetrizer::{Result, detect_document};
 use crate::Answer;
 use crate::files::{PictureFile, ReportFile, check_distinct, commit};
 use crate::input::{self, Input};
-use crate::options::{Desk, Tuning};
+use crate::options::{Desk, Sought, Tuning};
 use crate::summary;
 
 /// List the symmetries of a shape and of its parts
+///
+/// Mirrors, rotations, translations, screws, glides, rotoreflections and inversions, groups of them, and
+/// parts that slide along themselves. Nothing is moved.
 #[derive(Args)]
 pub struct DetectArgs {
     #[arg(help = input::HELP)]
@@ -21,16 +24,19 @@ pub struct DetectArgs {
     /// Write the symmetries with their faces and pairs here, as JSON
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// Draw the shape with its planes here (png, svg)
+    /// Draw what was found here, patch and image of each in one colour (png, svg)
     #[arg(long, value_name = "FILE")]
     picture: Option<PathBuf>,
+    #[command(flatten)]
+    sought: Sought,
     #[command(flatten)]
     tuning: Tuning,
 }
 
 /// The verb.
 pub fn detect(args: &DetectArgs, desk: &Desk) -> Result<Answer> {
-    let params = args.tuning.resolve()?;
+    let mut params = args.tuning.resolve()?;
+    args.sought.narrow(&mut params)?;
     let (report, picture) = (args.report.as_deref(), args.picture.as_deref());
     let paths: Vec<_> = report.into_iter().chain(picture).collect();
     check_distinct(args.input.path(), &[], &paths)?;
@@ -41,7 +47,7 @@ pub fn detect(args: &DetectArgs, desk: &Desk) -> Result<Answer> {
     let found = detect_document(&document, &params, &mut ctx).map_err(|e| args.input.blame(e))?;
     let mut complete = Vec::new();
     if let Some(file) = picture_file {
-        let draw = || file.write(&pictures::views(&found, &args.input.title()));
+        let draw = || file.write(&pictures::symmetries(&found, &args.input.title()));
         complete.push(ctx.stage("picture", |_| draw())?);
     }
     let mut report = DetectReport::new(&document.mesh, &found, &params, &ctx);

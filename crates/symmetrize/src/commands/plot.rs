@@ -9,14 +9,13 @@ use symmetrizer::{Result, detect_document};
 use crate::Answer;
 use crate::files::{PictureFile, check_distinct, commit};
 use crate::input::{self, Input};
-use crate::options::{Desk, Tuning};
-use crate::summary;
+use crate::options::{Desk, Sought, Tuning};
 
 /// Plot the votes for symmetries in transformation space
 ///
-/// The plot shows the two main axes of transformation space, in which distances are displacements as
-/// fractions of the scale L. Symmetries are marked by their ids, as `detect` lists them; clusters
-/// that are no symmetries in grey.
+/// A plot for each class of isometries that is looked for shows the two main axes of its votes, in which
+/// distances are displacements as fractions of the scale L. Symmetries are marked by their ids, as
+/// `detect` lists them; the highest clusters that are no symmetries in grey.
 #[derive(Args)]
 pub struct PlotArgs {
     #[arg(help = input::HELP)]
@@ -25,28 +24,29 @@ pub struct PlotArgs {
     #[arg(long, short, value_name = "FILE")]
     output: PathBuf,
     #[command(flatten)]
+    sought: Sought,
+    #[command(flatten)]
     tuning: Tuning,
 }
 
 /// The verb.
 pub fn plot(args: &PlotArgs, desk: &Desk) -> Result<Answer> {
-    let params = args.tuning.resolve()?;
+    let mut params = args.tuning.resolve()?;
+    args.sought.narrow(&mut params)?;
     check_distinct(args.input.path(), &[], &[&args.output])?;
     let file = PictureFile::reserve(&args.output)?;
     let mut ctx = desk.context();
     let document = args.input.read(&mut ctx)?;
     let found = detect_document(&document, &params, &mut ctx).map_err(|e| args.input.blame(e))?;
-    let title = format!(
-        "{}: {} votes, {} symmetries",
-        args.input.title(),
-        summary::grouped(found.detection.clouds.iter().map(|c| c.pairs.len()).sum()),
-        found.symmetries().len()
-    );
+    let title = args.input.title();
     let complete = ctx.stage("picture", |_| {
         file.write(&pictures::density(&found, params.cluster.bandwidth, &title))
     })?;
     ctx.check()?;
     commit([complete])?;
-    desk.say(&format!("{title}\nwrote {}\n", args.output.display()));
+    for cloud in 0..found.detection.clouds.len() {
+        desk.say(&format!("{}\n", pictures::plot_title(&found, cloud)));
+    }
+    desk.say(&format!("wrote {}\n", args.output.display()));
     Ok(Answer::Yes)
 }

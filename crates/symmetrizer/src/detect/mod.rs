@@ -3,8 +3,10 @@
 
 pub mod groups;
 mod search;
+pub mod wanted;
 
 pub use groups::Group;
+pub use wanted::{Want, Wanted};
 
 use search::Surroundings;
 
@@ -21,11 +23,11 @@ use crate::slip::Continuous;
 use crate::transform::{Class, TransformSpace};
 
 /// Parameters of detection, a section for each stage.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DetectParams {
     /// What is looked for.
-    pub classes: Vec<Class>,
+    pub wanted: Wanted,
     /// Samples.
     pub sample: SampleParams,
     /// Pairs.
@@ -34,18 +36,6 @@ pub struct DetectParams {
     pub cluster: ClusterParams,
     /// Patches.
     pub patch: PatchParams,
-}
-
-impl Default for DetectParams {
-    fn default() -> Self {
-        Self {
-            classes: Class::ALL.to_vec(),
-            sample: SampleParams::default(),
-            pair: PairParams::default(),
-            cluster: ClusterParams::default(),
-            patch: PatchParams::default(),
-        }
-    }
 }
 
 /// The votes of one class.
@@ -93,8 +83,9 @@ pub fn detect(
         closest: &closest,
         samples: &samples,
     };
+    let classes = params.wanted.classes();
     let probes = ctx.stage("probe", |ctx| {
-        let rigid = params.classes.iter().any(|&c| c != Class::Mirror);
+        let rigid = classes.iter().any(|&c| c != Class::Mirror);
         let count = if rigid { params.sample.count } else { 0 };
         Ok(probes(surface, &samples, count, &mut ctx.rng("probe")))
     })?;
@@ -102,7 +93,7 @@ pub fn detect(
     let mut clouds = Vec::new();
     let mut symmetries: Vec<Symmetry> = Vec::new();
     let mut refused = Vec::new();
-    for &class in &params.classes {
+    for class in classes {
         let pairs = ctx.stage("pair", |ctx| match class {
             Class::Mirror => mirror_pairs(&samples, &params.pair, ctx),
             _ => rigid_pairs(&probes, class, &space, &params.pair, ctx),

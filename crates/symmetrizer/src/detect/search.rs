@@ -7,7 +7,7 @@ use crate::cluster::{Cluster, Votes};
 use crate::context::Context;
 use crate::detect::{Cloud, DetectParams};
 use crate::error::Result;
-use crate::pair::{Pair, shuffled_mirrors};
+use crate::pair::{Pair, shuffled_mirrors, shuffled_motions};
 use crate::patch::grow::{Ground, touch};
 use crate::patch::{Refusal, Symmetry, grow_patch};
 use crate::sample::samples::Describer;
@@ -76,6 +76,7 @@ fn motions(
         })
         .collect();
     ctx.progress(1.0)?;
+    let mut rng = ctx.rng("chance");
     let mut found = Found::default();
     let mut good: Vec<Symmetry> = Vec::new();
     for outcome in grown {
@@ -86,10 +87,36 @@ fn motions(
     }
     let quality = |s: &Symmetry| s.area_fraction * (1.0 - s.rms / params.patch.copy_tolerance);
     good.sort_by(|a, b| quality(b).total_cmp(&quality(a)));
-    let near = 0.5 * params.cluster.bandwidth;
+    let h = params.cluster.bandwidth;
+    let near = 0.5 * h;
+    let chance: Vec<Votes> = (0..SHUFFLES)
+        .map(|_| {
+            let pairs = shuffled_motions(&cloud.pairs, class, ground.samples, &mut rng);
+            Votes::new(&pairs, space)
+        })
+        .collect();
     let mut accepted = known.to_vec();
     for s in good {
         if accepted.iter().any(|k| is_same(k, &s, space, near)) {
+            continue;
+        }
+        let mode = space.embed(&s.q_from_p);
+        let by_chance: f64 = chance.iter().map(|v| v.density(&mode, h)).sum();
+        let by_chance = by_chance / SHUFFLES as f64 / s.height;
+        if std::env::var("DEBUG").is_ok() {
+            eprintln!(
+                "{:?} h {:.2} area {:.3} rms {:.4} gap {:.3} doubt-gap {:.3} chance {by_chance:.3}",
+                s.class,
+                s.height,
+                s.area_fraction,
+                s.rms,
+                s.confusion,
+                s.doubt - 2.0 * s.confusion
+            );
+        }
+        if by_chance > params.patch.max_chance {
+            let reason = format!("as many votes come by chance ({by_chance:.2} of its height)");
+            found.refused.push(s.refuse(reason, ground.samples));
             continue;
         }
         match as_good(s, &accepted, ground) {

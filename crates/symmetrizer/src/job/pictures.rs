@@ -1,26 +1,27 @@
 //! The pictures of a job: both states side by side, one state's views, transformation space.
 //!
-//! All of it is computed from the job when it is asked for; planes and their clusters have the
-//! same colour, that of the symmetry's id.
+//! All of it is computed from the job when it is asked for; planes, patches and their clusters have
+//! the same colour, that of the symmetry's id.
+
+mod parts;
+mod plots;
+
+pub use parts::symmetries;
+pub use plots::{density, plot_title};
+
+use plots::Votes;
 
 use crate::apply::measure::per_vertex;
 use crate::cluster::Projection;
 use crate::job::{Detected, Measured, Symmetrized};
 use crate::picture::{
-    Angle, Canvas, DensityPlot, Extent, Panel, PlotMode, ReportPicture, ScalarField, Sheet,
-    categorical, render_sheet, strongest,
+    Angle, Canvas, Extent, Panel, ReportPicture, ScalarField, Sheet, categorical, render_sheet,
+    strongest,
 };
-use crate::transform::{Isometry, Plane};
+use crate::transform::{Class, Plane};
 
 /// Planes drawn in one picture at the most, the highest symmetries'.
 const PLANES: usize = 3;
-/// The colour of clusters that are no symmetries: grey.
-const REFUSED_COLOR: usize = 9;
-/// Side of the plot of transformation space, pixels.
-const PLOT_SIDE: u32 = 900;
-/// How far a vote is spread in plots, in units of what clustering takes: less shows the ridges
-/// between clusters.
-const SHARPNESS: f64 = 0.5;
 /// Width and height of one view of a sheet, pixels.
 pub const VIEW_SIZE: [u32; 2] = [420, 440];
 /// The scale of colours reaches at least this far, % of D: less is the triangulation's, and a shape
@@ -38,7 +39,7 @@ pub fn before_after(job: &Symmetrized, title: &str) -> Canvas {
     };
     let bandwidth = job.report.head.params.cluster.bandwidth;
     let projection = Projection::new(before.detection.clouds[0].votes.points());
-    let votes = [before, after].map(|state| Votes::new(state, before, &projection));
+    let votes = [before, after].map(|state| Votes::new(state, 0, before, &projection));
     let axes = common_axes(&votes, bandwidth);
     let colors = [(before, job.planes[0]), (after, job.planes[1])]
         .map(|(d, plane)| per_vertex(&d.working.surface, d.diagonal, &plane));
@@ -60,14 +61,6 @@ pub fn before_after(job: &Symmetrized, title: &str) -> Canvas {
         scale_label: SCALE_LABEL,
     };
     page.canvas()
-}
-
-/// The votes of `found` in the two main axes of transformation space, clusters marked: symmetries
-/// by their ids, modes that are none in grey.
-pub fn density(found: &Detected, bandwidth: f64, title: &str) -> Canvas {
-    let projection = Projection::new(found.detection.clouds[0].votes.points());
-    let votes = Votes::new(found, found, &projection);
-    votes.plot(bandwidth, None, title).canvas(PLOT_SIDE)
 }
 
 /// Views of `found` with the planes of its symmetries.
@@ -137,11 +130,19 @@ fn figures(job: &Symmetrized) -> String {
     )
 }
 
+/// The colour of a symmetry, by its number in [`categorical`]: any but the last, which is grey.
+fn hue(id: u32) -> usize {
+    (id % 9) as usize
+}
+
+fn color(id: u32) -> [u8; 3] {
+    categorical(hue(id))
+}
+
 fn colored_planes(found: &Detected) -> Vec<(Plane, [u8; 3])> {
-    let highest = found.symmetries().iter().take(PLANES);
-    highest
-        .map(|s| (s.plane(), categorical(s.id as usize)))
-        .collect()
+    let mirrors = found.symmetries().iter();
+    let highest = mirrors.filter(|s| s.class == Class::Mirror).take(PLANES);
+    highest.map(|s| (s.plane(), color(s.id))).collect()
 }
 
 /// The square around the votes and marks of both states.
@@ -149,51 +150,4 @@ fn common_axes(votes: &[Votes; 2], bandwidth: f64) -> Extent {
     let points = votes.iter().flat_map(|v| &v.points);
     let marks = votes.iter().flat_map(|v| &v.modes).map(|m| &m.position);
     Extent::around(points.chain(marks), bandwidth)
-}
-
-/// The votes of a state, projected.
-struct Votes {
-    points: Vec<[f64; 2]>,
-    weights: Vec<f64>,
-    modes: Vec<PlotMode>,
-}
-
-impl Votes {
-    /// The votes of `state` in the transformation space of `home`, so that the states of one job
-    /// can be compared.
-    fn new(state: &Detected, home: &Detected, projection: &Projection) -> Self {
-        let found = &state.detection;
-        let place = |t: &Isometry| projection.project(&home.detection.space.embed(t));
-        let mark = |t: &Isometry, height, label, color| PlotMode {
-            position: place(t),
-            label,
-            height,
-            color,
-        };
-        let refused = found.refused.iter();
-        let refused = refused.map(|r| mark(&r.q_from_p, r.height, String::new(), REFUSED_COLOR));
-        let symmetries = found.symmetries.iter();
-        let symmetries =
-            symmetries.map(|s| mark(&s.q_from_p, s.height, s.id.to_string(), s.id as usize));
-        Self {
-            points: found.clouds[0]
-                .pairs
-                .iter()
-                .map(|v| place(&v.q_from_p))
-                .collect(),
-            weights: found.clouds[0].pairs.iter().map(|v| v.weight).collect(),
-            modes: symmetries.chain(refused).collect(),
-        }
-    }
-
-    fn plot<'a>(&'a self, bandwidth: f64, axes: Option<Extent>, title: &'a str) -> DensityPlot<'a> {
-        DensityPlot {
-            points: &self.points,
-            weights: &self.weights,
-            modes: &self.modes,
-            bandwidth: SHARPNESS * bandwidth,
-            axes,
-            title,
-        }
-    }
 }

@@ -1,12 +1,16 @@
 //! Votes by chance: the same places, paired at random.
 
+use std::f64::consts::TAU;
+
+use rand::RngExt;
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg64;
 
 use crate::pair::mirror::mirror_of;
+use crate::pair::rigid::motion;
 use crate::pair::{Pair, PairParams};
 use crate::sample::Samples;
-use crate::transform::Isometry;
+use crate::transform::{Class, Isometry};
 
 /// The mirror votes of `pairs` with their second places shuffled: of those, the pairs that pass the
 /// tests that votes pass, as many as there are, each with the first one's weight.
@@ -29,6 +33,34 @@ pub fn shuffled_mirrors(
                 q_from_p: Isometry::mirror(&plane),
                 ..*v
             })
+        })
+        .collect()
+}
+
+/// The votes of `pairs` for motions with their second places shuffled and any turn.
+pub fn shuffled_motions(
+    pairs: &[Pair],
+    class: Class,
+    samples: &Samples,
+    rng: &mut Pcg64,
+) -> Vec<Pair> {
+    let mut others: Vec<u32> = pairs.iter().map(|v| v.q).collect();
+    others.shuffle(rng);
+    let place = |s: u32, turn: f64| {
+        let s = &samples.list[s as usize];
+        (s.position, s.frame.turned(turn))
+    };
+    pairs
+        .iter()
+        .zip(others)
+        .map(|(v, q)| Pair {
+            q,
+            q_from_p: motion(
+                &place(v.p, 0.0),
+                &place(q, rng.random_range(0.0..TAU)),
+                class,
+            ),
+            ..*v
         })
         .collect()
 }

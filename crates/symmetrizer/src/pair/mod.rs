@@ -6,7 +6,7 @@ mod rigid;
 
 use crate::transform::Isometry;
 
-pub use chance::shuffled_mirrors;
+pub use chance::{shuffled_mirrors, shuffled_motions};
 pub use mirror::mirror_pairs;
 pub use rigid::rigid_pairs;
 

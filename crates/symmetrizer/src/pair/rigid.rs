@@ -102,7 +102,7 @@ fn partners(
 
 /// The motion that carries one place with its frame to another; improper ones turn the second tangent
 /// round.
-fn motion(p: &(Point, Frame), q: &(Point, Frame), class: Class) -> Isometry {
+pub fn motion(p: &(Point, Frame), q: &(Point, Frame), class: Class) -> Isometry {
     let hand = if class.is_improper() { -1.0 } else { 1.0 };
     let from = Matrix3::from_columns(&[p.1.n, p.1.e1, hand * p.1.e2()]);
     let to = Matrix3::from_columns(&[q.1.n, q.1.e1, q.1.e2()]);

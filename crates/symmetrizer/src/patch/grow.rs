@@ -35,8 +35,12 @@ pub struct PatchParams {
     /// that comes by chance. 0.82, ours, decision 0012: true mirrors of the models reach .77, false ones
     /// start at .88.
     pub max_doubt: f64,
-    /// Largest rms residual of a motion, in units of the tolerance. 0.45, ours.
+    /// Largest rms residual of a motion, in units of what its patch was grown to: exact copies with even
+    /// noise have .33. 0.385, ours.
     pub max_filled: f64,
+    /// Largest share of a motion's height that its votes reach when their second places are shuffled. 0.03,
+    /// ours.
+    pub max_chance: f64,
     /// Largest median gap between the reliefs of a motion's partners. 0.6, ours.
     pub max_unlikeness: f64,
     /// Smallest firmness with which a patch holds a rigid motion against sliding. 0.02, ours.
@@ -56,7 +60,8 @@ impl Default for PatchParams {
             min_copy: 0.03,
             max_confusion: 0.18,
             max_doubt: 0.82,
-            max_filled: 0.45,
+            max_filled: 0.385,
+            max_chance: 0.03,
             max_unlikeness: 0.6,
             min_firmness: 0.02,
             min_height: 0.1,

@@ -60,16 +60,27 @@ impl FaceSamples {
     pub fn patch(&self, symmetry: &Symmetry, samples: usize) -> [Vec<u32>; 2] {
         let patch = symmetry.membership(samples);
         if symmetry.class != Class::Mirror {
-            let mut image = vec![false; samples];
-            for &s in &symmetry.image {
-                image[s as usize] = true;
-            }
-            return [self.faces(&patch).collect(), self.faces(&image).collect()];
+            return [
+                self.faces(&patch).collect(),
+                self.of_samples(&symmetry.image),
+            ];
         }
         let plane = symmetry.plane();
         let above = |f: &u32| plane.signed_distance(&self.centroids[*f as usize]) >= 0.0;
         let (image, patch) = self.faces(&patch).partition(above);
         [patch, image]
+    }
+
+    /// The working triangles that some of the samples speak for, increasing.
+    pub fn of_samples(&self, samples: &[u32]) -> Vec<u32> {
+        let count = self.nearest.iter().flatten().max().map_or(0, |m| *m + 1);
+        let mut member = vec![false; count as usize];
+        for &s in samples {
+            if let Some(slot) = member.get_mut(s as usize) {
+                *slot = true;
+            }
+        }
+        self.faces(&member).collect()
     }
 
     /// The triangles whose samples are members.

@@ -3,66 +3,61 @@
 use serde::Serialize;
 
 use crate::apply::measure::PlaneReport;
-use crate::geom::Point;
 use crate::job::Detected;
-use crate::patch::{Refusal, Symmetry};
+use crate::patch::Symmetry;
 use crate::report::faces::FaceSamples;
+use crate::report::place::{Matrix, Place};
 use crate::shape::SurfacePoint;
-use crate::shape::working::{Normalization, Working};
-use crate::transform::Isometry;
+use crate::shape::working::Working;
+use crate::transform::{Class, Elements, Kind, Plane};
 
-/// A symmetry in document coordinates.
+/// A symmetry in document coordinates. What a kind does not have is left out.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SymmetryReport {
     /// Its id, kept from the input to the result.
     pub id: u32,
-    /// What kind of isometry it is: `mirror`.
-    pub kind: &'static str,
-    /// Rows of the 4x4 matrix that carries the patch onto its image, acting on columns.
-    pub matrix: [[f64; 4]; 4],
-    /// The mirror n.x = offset, largest component of n positive, offset in document units.
+    /// What kind of isometry it is.
+    pub kind: Kind,
+    /// Rows of the 4x4 matrix that carries the patch onto its image, acting on columns; exactly of its
+    /// kind.
+    pub matrix: Matrix,
+    /// The plane n.x = offset of a mirror or glide, largest component of n positive, offset in document
+    /// units.
     #[serde(flatten)]
-    pub plane: PlaneReport,
+    pub plane: Option<PlaneReport>,
+    /// The unit axis of a rotation, screw or rotoreflection, largest component positive.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axis: Option<[f64; 3]>,
+    /// The point of the axis nearest to the patch's centroid, or the point that an inversion or
+    /// rotoreflection fixes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub point: Option<[f64; 3]>,
+    /// The turn about the axis, degrees in (-180, 180].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub angle_deg: Option<f64>,
+    /// The least n such that the angle is a multiple of 360 / n degrees, where that is no chance.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub order: Option<u32>,
+    /// The translation, or the shift of a screw along its axis or of a glide along its plane.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shift: Option<[f64; 3]>,
+    /// The name of the group it belongs to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub group: Option<String>,
     /// Whether it is one of a continuous family.
     pub continuous: bool,
     /// Kernel density of its votes.
     pub height: f64,
-    /// rms distance of mirrored samples from the surface, fraction of L.
+    /// rms distance of moved samples from the surface, fraction of L.
     pub rms: f64,
     /// Patch and image as a share of the surface's area.
     pub area_fraction: f64,
-    /// Triangles of the patch, on the side n.x < offset, numbered after fan triangulation.
+    /// Triangles of the patch, of a mirror on the side n.x < offset, numbered after fan triangulation.
     pub patch_faces: Vec<u32>,
     /// Triangles of its image.
     pub image_faces: Vec<u32>,
     /// Vertices of the patch with their partners in the image, the nearest ones to the samples.
     pub pairs: Vec<[u32; 2]>,
-}
-
-/// A cluster that is no symmetry, in document coordinates.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct RefusalReport {
-    /// Its mirror.
-    #[serde(flatten)]
-    pub plane: PlaneReport,
-    /// Kernel density of its votes.
-    pub height: f64,
-    /// Why it was refused, for people.
-    pub reason: String,
-}
-
-impl RefusalReport {
-    /// `refusal` in document coordinates.
-    pub fn new(refusal: &Refusal, normalization: &Normalization) -> Self {
-        Self {
-            plane: PlaneReport::new(
-                &refusal.q_from_p.nearest_mirror(&Point::origin()),
-                normalization,
-            ),
-            height: refusal.height,
-            reason: refusal.reason.clone(),
-        }
-    }
 }
 
 /// All symmetries that were `found`.
@@ -72,46 +67,39 @@ pub fn all(found: &Detected, faces: &FaceSamples) -> Vec<SymmetryReport> {
 }
 
 fn report(symmetry: &Symmetry, found: &Detected, faces: &FaceSamples) -> SymmetryReport {
-    let working = &found.working;
-    let samples = &found.detection.samples.list;
-    let plane = PlaneReport::new(&symmetry.plane(), &working.normalization);
-    let numbered = |faces: Vec<u32>| {
-        let number = |f: u32| working.document_face[f as usize];
-        faces.into_iter().map(number).collect()
-    };
-    let [patch, image] = faces.patch(symmetry, samples.len());
+    let place = Place(&found.working);
+    let elements = found.elements(symmetry);
+    let has = |kinds: &[Kind]| kinds.contains(&elements.kind);
+    let turns = has(&[Kind::Rotation, Kind::Screw, Kind::Rotoreflection]);
+    let fixes = turns || has(&[Kind::Inversion]);
+    let shifts = has(&[Kind::Translation, Kind::Screw, Kind::Glide]);
+    let [patch, image] = faces.patch(symmetry, found.detection.samples.list.len());
     SymmetryReport {
         id: symmetry.id,
-        kind: match symmetry.class {
-            crate::transform::Class::Mirror => "mirror",
-            crate::transform::Class::Proper => "proper",
-            crate::transform::Class::Improper => "improper",
-        },
-        matrix: matrix(&symmetry.q_from_p, &working.normalization),
-        plane,
+        kind: elements.kind,
+        matrix: place.matrix(&elements.isometry()),
+        plane: plane(&elements).map(|p| PlaneReport::new(&p, &found.working.normalization)),
+        axis: elements.axis.filter(|_| turns).map(Into::into),
+        point: fixes.then(|| place.point(&elements.point)),
+        angle_deg: turns.then(|| elements.angle.to_degrees()),
+        order: elements.order.filter(|_| turns),
+        shift: shifts.then(|| place.shift(&elements.shift)),
+        group: found.group_of(symmetry.id).map(|g| g.name.clone()),
         continuous: false,
         height: symmetry.height,
         rms: symmetry.rms,
         area_fraction: symmetry.area_fraction,
-        patch_faces: numbered(patch),
-        image_faces: numbered(image),
+        patch_faces: place.faces(patch),
+        image_faces: place.faces(image),
         pairs: pairs(symmetry, found),
     }
 }
 
-/// The isometry in document coordinates as rows of a homogeneous matrix.
-fn matrix(t: &Isometry, normalization: &Normalization) -> [[f64; 4]; 4] {
-    // x_d = c + L x_w on both sides.
-    let c = normalization.center.coords;
-    let translation = c - t.linear * c + t.translation * normalization.scale;
-    std::array::from_fn(|r| {
-        std::array::from_fn(|c| match (r, c) {
-            (3, 3) => 1.0,
-            (3, _) => 0.0,
-            (_, 3) => translation[r],
-            _ => t.linear[(r, c)],
-        })
-    })
+/// The plane of a mirror or glide.
+fn plane(elements: &Elements) -> Option<Plane> {
+    let across = matches!(elements.kind, Kind::Mirror | Kind::Glide);
+    let normal = elements.axis.filter(|_| across)?;
+    Some(Plane::through(&elements.point, normal))
 }
 
 /// The document vertices next to each pair's ends, that of the patch's side first.
@@ -119,16 +107,18 @@ fn pairs(symmetry: &Symmetry, found: &Detected) -> Vec<[u32; 2]> {
     let samples = &found.detection.samples.list;
     let documents = &found.working.document_of_vertex;
     let vertex = |at: &SurfacePoint| documents[nearest_corner(&found.working, at) as usize];
+    // The patch of a mirror is both of its sides.
+    let plane = (symmetry.class == Class::Mirror).then(|| symmetry.plane());
+    let from_above = |x| plane.is_some_and(|p| p.signed_distance(&x) >= 0.0);
     let mut pairs: Vec<[u32; 2]> = symmetry
         .pairs
         .iter()
         .map(|pair| {
             let sample = &samples[pair.sample as usize];
             let (i, j) = (vertex(&sample.at), vertex(&pair.partner));
-            if symmetry.plane().signed_distance(&sample.position) < 0.0 {
-                [i, j]
-            } else {
-                [j, i]
+            match from_above(sample.position) {
+                true => [j, i],
+                false => [i, j],
             }
         })
         .collect();

@@ -349,9 +349,8 @@ impl Correlation {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::exp_rotation;
+    use crate::geom::{Matrix3, exp_rotation};
     use crate::shape::Surface;
-    use crate::transform::{Isometry, Plane};
 
     /// A lively height field over a square, finely and unevenly triangulated.
     fn ground() -> Surface {
@@ -392,17 +391,17 @@ mod tests {
             e1: crate::geom::any_orthogonal(&surface.vertex_normals[vertex]),
         };
         let relief = relief_of(&surface, &frame, &x);
-        let mirror = Isometry::mirror(&Plane {
-            normal: Vector::new(0.3, -0.5, 0.8).normalize(),
-            offset: 0.4,
-        });
-        let motion = Isometry {
-            linear: exp_rotation(&Vector::new(0.4, -1.1, 0.7)),
-            translation: Vector::new(1.0, 2.0, 3.0),
-        };
+        let n = Vector::new(0.3, -0.5, 0.8).normalize();
+        let mirror = Matrix3::identity() - 2.0 * n * n.transpose();
+        let motion = exp_rotation(&Vector::new(0.4, -1.1, 0.7));
         for (t, mirrored) in [(motion, false), (mirror, true)] {
-            let moved =
-                surface.with_positions(surface.positions.iter().map(|p| t.apply(p)).collect());
+            let moved = surface.with_positions(
+                surface
+                    .positions
+                    .iter()
+                    .map(|p| Point::from(t * p.coords))
+                    .collect(),
+            );
             // A mirrored copy is seen from outside again when its triangles are turned.
             let triangles: Vec<[u32; 3]> =
                 moved.triangles.iter().map(|&[a, b, c]| [b, a, c]).collect();
@@ -412,19 +411,16 @@ mod tests {
                 moved
             };
             let there = Frame {
-                n: t.rotate(&frame.n),
-                e1: crate::geom::any_orthogonal(&t.rotate(&frame.n)),
+                n: (t * frame.n),
+                e1: crate::geom::any_orthogonal(&(t * frame.n)),
             }
             .turned(0.7);
-            let other = relief_of(&moved, &there, &t.apply(&x));
+            let other = relief_of(&moved, &there, &Point::from(t * x.coords));
             let best = relief.alignments(&other, mirrored, 0.2);
             assert_eq!(best.len(), 1, "{best:?}");
             assert!(best[0].gap < 1e-5);
             let e1 = there.turned(best[0].turn).e1;
-            assert!(
-                (e1 - t.rotate(&frame.e1)).norm() < 1e-5,
-                "mirrored {mirrored}"
-            );
+            assert!((e1 - t * frame.e1).norm() < 1e-5, "mirrored {mirrored}");
             assert!(relief.least_gap(&other).unwrap() <= best[0].gap + 1e-6);
             // The other hand does not fit.
             assert!(relief.alignments(&other, !mirrored, 0.05).is_empty());
@@ -434,11 +430,12 @@ mod tests {
     /// The strength is the rms height over the disc: that of a bowl, without the level that is its place.
     #[test]
     fn the_strength_is_a_height() {
-        let positions = ground()
+        let flat = ground();
+        let positions = flat
             .positions
             .iter()
             .map(|p| Point::new(p.x, p.y, 0.5 * (p.x * p.x + p.y * p.y)));
-        let bowl = ground().with_positions(positions.collect());
+        let bowl = flat.with_positions(positions.collect());
         let frame = Frame {
             n: Vector::z(),
             e1: Vector::x(),

@@ -18,6 +18,15 @@ impl Class {
     /// All of them, mirrors first.
     pub const ALL: [Self; 3] = [Self::Mirror, Self::Proper, Self::Improper];
 
+    /// What it has, in words.
+    pub fn members(self) -> &'static str {
+        match self {
+            Self::Mirror => "mirrors",
+            Self::Proper => "rotations, translations, screws",
+            Self::Improper => "glides, rotoreflections, inversions",
+        }
+    }
+
     /// Whether its members turn left hands into right hands.
     pub fn is_improper(self) -> bool {
         self != Self::Proper

@@ -5,8 +5,8 @@ use resvg::usvg;
 use symmetrizer::geom::Vector;
 use symmetrizer::picture::canvas::Text;
 use symmetrizer::picture::{
-    Angle, Canvas, DensityPlot, Extent, Panel, PlotMode, ReportPicture, ScalarField, Sheet,
-    categorical, render_sheet,
+    Angle, Canvas, DensityPlot, Exhibit, Extent, Gallery, Panel, PlotMode, ReportPicture, Rod,
+    ScalarField, Sheet, categorical, render_sheet,
 };
 use symmetrizer::transform::isometry::Plane;
 
@@ -256,4 +256,62 @@ fn a_sheet_has_one_picture_for_each_angle() {
         let canvas = render_sheet(&sheet);
         assert_eq!(images(parse(&canvas.to_svg().unwrap()).root()), count);
     }
+}
+
+/// A panel whose part is the triangles of a ball beyond `side` along z.
+fn cap(model: &Model, side: f64) -> Exhibit {
+    let beyond = |t: &[u32; 3]| {
+        t.iter()
+            .all(|&v| side * model.positions[v as usize].z > 0.3)
+    };
+    let faces = (0..).zip(&model.triangles).filter(|(_, t)| beyond(t));
+    Exhibit {
+        caption: "part".into(),
+        parts: vec![(faces.map(|(f, _)| f).collect(), [255, 0, 0])],
+        rods: vec![Rod {
+            from: symmetrizer::geom::Point::new(0.0, -1.5, 0.0),
+            to: symmetrizer::geom::Point::new(0.0, 1.5, 0.0),
+            radius: 0.02,
+            arrow: true,
+            color: [0, 0, 120],
+        }],
+        ..Exhibit::empty()
+    }
+}
+
+#[test]
+fn a_gallery_looks_at_each_part_from_its_side() {
+    let model = sphere(24);
+    let exhibits = [
+        cap(&model, 1.0),
+        cap(&model, -1.0),
+        cap(&model, 1.0),
+        cap(&model, -1.0),
+    ];
+    let gallery = Gallery {
+        title: "gallery",
+        positions: &model.positions,
+        triangles: &model.triangles,
+        upright: None,
+        exhibits: &exhibits,
+        size: [200, 200],
+    };
+    let page = gallery.canvas();
+    let svg = page.to_svg().unwrap();
+    assert_eq!(images(parse(&svg).root()), 4);
+    assert!(svg.contains("gallery") && svg.matches(">part<").count() == 4);
+    assert_eq!(svg, gallery.canvas().to_svg().unwrap());
+    let picture = decode(&page.to_png().unwrap());
+    // Three in a row, the fourth below the first.
+    let red_in = |column: u32, row: u32| {
+        let [x0, y0] = [32 + column * 200, 68 + row * 248 + 48];
+        let pixels = (0..200 * 200).map(|i| picture.get_pixel(x0 + i % 200, y0 + i / 200).0);
+        let red = |p: &[u8; 4]| p[0] > 90 && p[1] < 60 && p[2] < 60;
+        pixels.filter(red).count()
+    };
+    for (column, row) in [(0, 0), (1, 0), (2, 0), (0, 1)] {
+        let red = red_in(column, row);
+        assert!(red > 4000, "{red} pixels of the part at {column}, {row}");
+    }
+    assert_eq!(red_in(0, 0), red_in(2, 0));
 }

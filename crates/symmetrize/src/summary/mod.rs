@@ -1,16 +1,18 @@
 //! Results in words and tables for people.
 
+mod found;
+mod refused;
+mod together;
+
 use std::fmt::Write;
 
 use symmetrizer::apply::measure::{AsymmetryReport, Distortion, PlaneReport};
 use symmetrizer::optimize::Step;
-use symmetrizer::report::{InputReport, RefusalReport, Report, ShapeReport, SymmetryReport};
+use symmetrizer::report::{Report, ShapeReport};
 use symmetrizer::{Outcome, Warning};
 
+pub use found::symmetries;
 pub use symmetrizer::shape::validate::grouped;
-
-/// Refused modes listed at the most; the report has them all.
-const REFUSED: usize = 8;
 
 /// A line about a shape.
 pub fn shape(shape: &ShapeReport) -> String {
@@ -28,15 +30,6 @@ pub fn shape(shape: &ShapeReport) -> String {
         short(shape.diagonal),
         short(shape.scale)
     )
-}
-
-/// The symmetries found, and with `refused` also what was not accepted.
-pub fn symmetries(input: &InputReport, refused: bool) -> String {
-    let mut text = table(&input.symmetries);
-    if refused && !input.refused.is_empty() {
-        text += &refusals(&input.refused);
-    }
-    text
 }
 
 /// Everything about a run but its files.
@@ -102,50 +95,11 @@ pub fn distortion(d: &Distortion) -> String {
 
 /// A plane n.x = offset.
 pub fn plane(plane: &PlaneReport) -> String {
-    let [x, y, z] = plane.normal;
     format!(
-        "({x:6.3}, {y:6.3}, {z:6.3}) . x = {:>9}",
+        "{} . x = {:>9}",
+        direction(plane.normal),
         short(plane.offset)
     )
-}
-
-fn table(symmetries: &[SymmetryReport]) -> String {
-    if symmetries.is_empty() {
-        return String::from("no symmetry found\n");
-    }
-    let mut text = String::from(
-        " id  kind    plane                                   height  area %  rms % of L\n",
-    );
-    for s in symmetries {
-        let _ = writeln!(
-            text,
-            "{:3}  {:<6}  {}  {:6.2}  {:6.1}  {:10.3}",
-            s.id,
-            s.kind,
-            plane(&s.plane),
-            s.height,
-            100.0 * s.area_fraction,
-            100.0 * s.rms
-        );
-    }
-    text
-}
-
-fn refusals(refused: &[RefusalReport]) -> String {
-    let mut text = String::from("refused\n");
-    for r in refused.iter().take(REFUSED) {
-        let _ = writeln!(
-            text,
-            "             {}  {:6.2}  {}",
-            plane(&r.plane),
-            r.height,
-            r.reason
-        );
-    }
-    if refused.len() > REFUSED {
-        let _ = writeln!(text, "             and {} more", refused.len() - REFUSED);
-    }
-    text
 }
 
 fn done(step: &Step) -> String {
@@ -198,6 +152,17 @@ fn outcome(outcome: Outcome) -> &'static str {
         Outcome::StepLimit => "step limit reached: a merge did not close (optimize.merge_steps)",
         Outcome::NoSymmetry => "no symmetry found",
     }
+}
+
+/// A vector or point with four significant digits.
+fn place(x: [f64; 3]) -> String {
+    let [x, y, z] = x.map(short);
+    format!("({x}, {y}, {z})")
+}
+
+/// A direction.
+fn direction([x, y, z]: [f64; 3]) -> String {
+    format!("({x:6.3}, {y:6.3}, {z:6.3})")
 }
 
 /// Four significant digits, plain where that is short.
