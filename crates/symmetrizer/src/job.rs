@@ -98,6 +98,7 @@ fn find_in(
 fn to_enhance(params: &Params) -> DetectParams {
     DetectParams {
         wanted: Wanted::mirrors(),
+        slip: None,
         ..params.detect()
     }
 }

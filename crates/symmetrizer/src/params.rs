@@ -13,6 +13,7 @@ use crate::optimize::params::OptimizeParams;
 use crate::pair::PairParams;
 use crate::patch::PatchParams;
 use crate::sample::SampleParams;
+use crate::slip::SlipParams;
 
 /// Parameters of [`crate::symmetrize`]. A parameter's dotted name is that of its section and its
 /// field, `optimize.step`, in files, in `--set` and in errors.
@@ -29,6 +30,8 @@ pub struct Params {
     pub cluster: ClusterParams,
     /// Patches.
     pub patch: PatchParams,
+    /// Continuous symmetries.
+    pub slip: SlipParams,
     /// The deformation model.
     pub deform: DeformParams,
     /// The schedule.
@@ -37,7 +40,7 @@ pub struct Params {
 
 /// What each parameter may be. The limits keep work and memory finite and formulas defined; within
 /// them not every value is wise.
-const RANGES: [(&str, f64, f64); 35] = [
+const RANGES: [(&str, f64, f64); 37] = [
     ("sample.count", 100.0, 20_000.0),
     ("pair.tolerance", 1e-6, 100.0),
     ("pair.partners", 1.0, 1000.0),
@@ -58,6 +61,8 @@ const RANGES: [(&str, f64, f64); 35] = [
     ("patch.min_firmness", 0.0, 1.0),
     ("patch.max_doubt", 0.0, 2.0),
     ("patch.min_height", 0.0, 1.0),
+    ("slip.tolerance", 1e-4, 0.5),
+    ("slip.min_area", 0.0, 1.0),
     ("deform.length", 1e-4, 10.0),
     ("deform.half_height", 1e-5, 1.0),
     ("deform.control_faces", 100.0, 1e6),
@@ -165,6 +170,7 @@ impl Params {
             pair: self.pair.clone(),
             cluster: self.cluster.clone(),
             patch: self.patch.clone(),
+            slip: Some(self.slip.clone()),
         }
     }
 

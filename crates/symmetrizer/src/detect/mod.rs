@@ -1,6 +1,8 @@
 //! Detection: samples, pairs, clusters and patches in a row, a cloud of votes for each class
 //! (section 2).
 
+mod arrange;
+mod complete;
 pub mod groups;
 mod search;
 pub mod wanted;
@@ -19,11 +21,11 @@ use crate::patch::{PatchParams, Refusal, Symmetry};
 use crate::sample::samples::Describer;
 use crate::sample::{SampleParams, Samples, probes, sample};
 use crate::shape::{ClosestPoint, Surface};
-use crate::slip::Continuous;
+use crate::slip::{Continuous, SlipParams, continuous};
 use crate::transform::{Class, TransformSpace};
 
 /// Parameters of detection, a section for each stage.
-#[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DetectParams {
     /// What is looked for.
@@ -36,6 +38,21 @@ pub struct DetectParams {
     pub cluster: ClusterParams,
     /// Patches.
     pub patch: PatchParams,
+    /// Continuous symmetries; not looked for without.
+    pub slip: Option<SlipParams>,
+}
+
+impl Default for DetectParams {
+    fn default() -> Self {
+        Self {
+            wanted: Wanted::default(),
+            sample: SampleParams::default(),
+            pair: PairParams::default(),
+            cluster: ClusterParams::default(),
+            patch: PatchParams::default(),
+            slip: Some(SlipParams::default()),
+        }
+    }
 }
 
 /// The votes of one class.
@@ -83,6 +100,10 @@ pub fn detect(
         closest: &closest,
         samples: &samples,
     };
+    let continuous = match &params.slip {
+        Some(slip) => ctx.stage("slip", |_| Ok(continuous(&samples, slip)))?,
+        None => Vec::new(),
+    };
     let classes = params.wanted.classes();
     let probes = ctx.stage("probe", |ctx| {
         let rigid = classes.iter().any(|&c| c != Class::Mirror);
@@ -90,6 +111,13 @@ pub fn detect(
         Ok(probes(surface, &samples, count, &mut ctx.rng("probe")))
     })?;
     let describer = Describer::new(surface);
+    let surroundings = Surroundings {
+        ground: &ground,
+        space: &space,
+        describer: &describer,
+        continuous: &continuous,
+        params,
+    };
     let mut clouds = Vec::new();
     let mut symmetries: Vec<Symmetry> = Vec::new();
     let mut refused = Vec::new();
@@ -105,29 +133,29 @@ pub fn detect(
             votes,
         };
         let clusters = ctx.stage("cluster", |_| Ok(cloud.votes.clusters(&params.cluster)))?;
-        let surroundings = Surroundings {
-            ground: &ground,
-            space: &space,
-            describer: &describer,
-            params,
-        };
         let found = ctx.stage("patch", |ctx| {
             search::search(&surroundings, clusters, &mut cloud, &symmetries, ctx)
         })?;
-        for symmetry in found.symmetries {
-            let id = symmetries.len() as u32;
-            symmetries.push(Symmetry { id, ..symmetry });
-        }
+        symmetries.extend(found.symmetries);
         refused.extend(found.refused);
         clouds.push(cloud);
     }
+    if clouds.iter().any(|c| c.class != Class::Mirror) {
+        ctx.stage("complete", |ctx| {
+            complete::complete(&surroundings, &mut symmetries, ctx)
+        })?;
+    }
+    for (id, s) in (0..).zip(&mut symmetries) {
+        s.id = id;
+    }
+    let groups = arrange::arrange(&surroundings, &symmetries);
     Ok(Detection {
         samples,
         space,
         clouds,
         symmetries,
         refused,
-        groups: Vec::new(),
-        continuous: Vec::new(),
+        groups,
+        continuous,
     })
 }

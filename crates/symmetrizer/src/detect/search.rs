@@ -11,6 +11,7 @@ use crate::pair::{Pair, shuffled_mirrors, shuffled_motions};
 use crate::patch::grow::{Ground, touch};
 use crate::patch::{Refusal, Symmetry, grow_patch};
 use crate::sample::samples::Describer;
+use crate::slip::Continuous;
 use crate::transform::space::Phi;
 use crate::transform::{Class, Isometry, TransformSpace};
 
@@ -57,6 +58,7 @@ fn motions(
         space,
         describer,
         params,
+        ..
     } = surroundings;
     let class = cloud.class;
     let worth = clusters.iter().filter(|c| c.votes.len() >= MIN_VOTES);
@@ -80,7 +82,7 @@ fn motions(
     let mut found = Found::default();
     let mut good: Vec<Symmetry> = Vec::new();
     for outcome in grown {
-        match outcome {
+        match outcome.and_then(|s| surroundings.more_than_sliding(s)) {
             Ok(symmetry) => good.push(symmetry),
             Err(refusal) => found.refused.push(refusal),
         }
@@ -191,6 +193,7 @@ fn pass(
         space,
         describer,
         params,
+        ..
     } = surroundings;
     let h = params.cluster.bandwidth;
     let mut tried: Vec<Phi> = Vec::new();
@@ -250,14 +253,41 @@ pub struct Surroundings<'a> {
     pub space: &'a TransformSpace,
     /// Makes samples of other places.
     pub describer: &'a Describer<'a>,
+    /// Parts that slide along themselves.
+    pub continuous: &'a [Continuous],
     /// The parameters.
     pub params: &'a DetectParams,
 }
+
+/// A part has an isometry by sliding when it comes to this of itself, rms fraction of L.
+const IMPLIED: f64 = 0.03;
 
 /// Shuffles of the votes that chance is estimated from.
 const SHUFFLES: usize = 4;
 
 impl Surroundings<'_> {
+    /// Refuses a symmetry of which too little is left when parts that have it by sliding along
+    /// themselves are not counted: a vase has all planes through its axis, which is one symmetry.
+    pub fn more_than_sliding(&self, s: Symmetry) -> std::result::Result<Symmetry, Refusal> {
+        let samples = self.ground.samples;
+        let mut own = s.ground(samples.list.len());
+        let implied = self
+            .continuous
+            .iter()
+            .filter(|c| c.implies(&s.q_from_p, samples, IMPLIED));
+        let mut any = false;
+        for part in implied {
+            any = true;
+            part.samples.iter().for_each(|&i| own[i as usize] = false);
+        }
+        let left = own.iter().filter(|m| **m).count() as f64 / own.len().max(1) as f64;
+        if any && left < self.params.patch.least_area(s.class) {
+            let reason = "implied by a continuous symmetry".to_owned();
+            return Err(s.refuse(reason, samples));
+        }
+        Ok(s)
+    }
+
     /// Refuses a mirror whose cluster is hardly higher than chance, adding this to its doubt: the
     /// height that the same votes have there when their second places are shuffled.
     fn weigh_against_chance(
@@ -307,7 +337,7 @@ impl Surroundings<'_> {
 
 /// Refuses what holds clearly worse than a symmetry found already does on the same ground: where an
 /// exact symmetry is known, approximate ones are its echo.
-fn as_good(
+pub fn as_good(
     s: Symmetry,
     found: &[Symmetry],
     ground: &Ground<'_>,
@@ -339,7 +369,7 @@ const WORSE: f64 = 1.7;
 const SLACK: f64 = 5e-4;
 
 /// Whether two symmetries are one: T and its inverse are.
-fn is_same(a: &Symmetry, b: &Symmetry, space: &TransformSpace, near: f64) -> bool {
+pub fn is_same(a: &Symmetry, b: &Symmetry, space: &TransformSpace, near: f64) -> bool {
     let (s, t) = (&a.q_from_p, &b.q_from_p);
     space.distance(s, t) < near || space.distance(s, &t.inverse()) < near
 }

@@ -70,6 +70,14 @@ impl Default for PatchParams {
 }
 
 impl PatchParams {
+    /// Smallest share of the surface's area.
+    pub fn least_area(&self, class: Class) -> f64 {
+        match class {
+            Class::Mirror => self.min_area,
+            Class::Proper | Class::Improper => self.min_copy,
+        }
+    }
+
     /// Largest distance of a sample's image from the surface, fraction of L.
     pub fn tolerance_of(&self, class: Class) -> f64 {
         match class {

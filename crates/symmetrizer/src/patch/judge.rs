@@ -80,10 +80,7 @@ fn covered(grown: &[PatchPair], image: &[u32], count: usize) -> f64 {
 }
 
 fn large_enough(area_fraction: f64, class: Class, params: &PatchParams) -> Result<(), String> {
-    let least = match class {
-        Class::Mirror => params.min_area,
-        Class::Proper | Class::Improper => params.min_copy,
-    };
+    let least = params.least_area(class);
     if area_fraction < least {
         return Err(format!(
             "holds for {:.1} % of the surface only",

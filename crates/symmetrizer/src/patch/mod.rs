@@ -9,4 +9,4 @@ pub mod symmetry;
 
 pub use grow::{PatchParams, grow_patch};
 pub use ids::carry_ids;
-pub use symmetry::{Refusal, Symmetry};
+pub use symmetry::{PatchPair, Refusal, Symmetry};

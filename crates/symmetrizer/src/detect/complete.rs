@@ -1,0 +1,216 @@
+//! What follows from what was found: products of symmetries whose patches meet, and mirrors beside
+//! motions that nearly are ones. Each is verified on the surface like a mode of the votes.
+
+use crate::context::Context;
+use crate::detect::search::{Surroundings, as_good, is_same};
+use crate::error::Result;
+use crate::geom::{Point, PointIndex};
+use crate::patch::grow::{Candidate, verify};
+use crate::patch::{PatchPair, Symmetry};
+use crate::transform::{Class, Isometry};
+
+/// Products verified at the most.
+const MOST: usize = 240;
+/// Symmetries at the most: larger groups are a matter of a continuous one.
+const MOST_FOUND: usize = 130;
+/// Two patches meet when this share of the smaller one lies in both.
+const MEETING: f64 = 0.5;
+/// An improper motion is tried as a mirror when one moves the surface to within this of it, rms fraction
+/// of L.
+const NEARLY_MIRROR: f64 = 0.04;
+/// Less than this is no motion at all.
+const MIN_MOTION: f64 = 0.05;
+
+/// Adds to `symmetries` what follows from them.
+///
+/// # Errors
+/// [`crate::Error::Cancelled`].
+pub fn complete(
+    surroundings: &Surroundings<'_>,
+    symmetries: &mut Vec<Symmetry>,
+    ctx: &mut Context<'_>,
+) -> Result<()> {
+    mirrors_beside(surroundings, symmetries);
+    let index = sample_index(surroundings);
+    let mut asked: Vec<Isometry> = Vec::new();
+    let mut next = 0;
+    // Symmetries that are added take part in later products.
+    while next < symmetries.len() && symmetries.len() < MOST_FOUND && asked.len() < MOST {
+        ctx.progress(asked.len() as f64 / MOST as f64)?;
+        for other in 0..=next {
+            for (t, seeds) in products(surroundings, &index, &symmetries[next], &symmetries[other])
+            {
+                let near = 0.5 * surroundings.params.cluster.bandwidth;
+                let alike = |k: &Isometry| same(surroundings, k, &t, near);
+                let known = symmetries.iter().any(|s| alike(&s.q_from_p));
+                if known || asked.iter().any(alike) || asked.len() >= MOST {
+                    continue;
+                }
+                asked.push(t);
+                let height = symmetries[next].height.min(symmetries[other].height);
+                if let Some(s) = verified(surroundings, &t, seeds, height)
+                    && !symmetries
+                        .iter()
+                        .any(|k| is_same(k, &s, surroundings.space, near))
+                    && let Ok(s) = as_good(s, symmetries, surroundings.ground)
+                {
+                    symmetries.push(s);
+                }
+            }
+        }
+        next += 1;
+    }
+    Ok(())
+}
+
+fn same(surroundings: &Surroundings<'_>, a: &Isometry, b: &Isometry, near: f64) -> bool {
+    let space = surroundings.space;
+    space.distance(a, b) < near || space.distance(a, &b.inverse()) < near
+}
+
+fn sample_index(surroundings: &Surroundings<'_>) -> PointIndex<3> {
+    let list = &surroundings.ground.samples.list;
+    let places: Vec<[f64; 3]> = list.iter().map(|s| s.position.coords.into()).collect();
+    PointIndex::new(&places)
+}
+
+/// The candidate as a mirror where it is one, else as a motion; nothing where it does not hold.
+fn verified(
+    surroundings: &Surroundings<'_>,
+    t: &Isometry,
+    seeds: Vec<u32>,
+    height: f64,
+) -> Option<Symmetry> {
+    let Surroundings {
+        ground,
+        describer,
+        params,
+        ..
+    } = surroundings;
+    let mirror = Isometry::mirror(&t.nearest_mirror(&Point::origin()));
+    let is_mirror =
+        t.is_improper() && surroundings.space.distance(t, &mirror) < 0.25 * NEARLY_MIRROR;
+    let (t, class) = match (is_mirror, t.is_improper()) {
+        (true, _) => (mirror, Class::Mirror),
+        (false, true) => (*t, Class::Improper),
+        (false, false) => (*t, Class::Proper),
+    };
+    if !params.wanted.classes().contains(&class) {
+        return None;
+    }
+    let candidate = Candidate {
+        t,
+        class,
+        height,
+        seeds,
+    };
+    let s = verify(ground, describer, &candidate, &params.patch).ok()?;
+    surroundings.more_than_sliding(s).ok()
+}
+
+/// Motions a symmetry stands for: itself and its inverse, with their pairs.
+fn directions(
+    s: &Symmetry,
+    index: &PointIndex<3>,
+    surroundings: &Surroundings<'_>,
+) -> Vec<Directed> {
+    let surface = surroundings.ground.surface;
+    let arrow = |pair: &PatchPair| {
+        let place = surface.point(&pair.partner);
+        Some((pair.sample, index.nearest(&place.coords.into())?.0))
+    };
+    let there: Vec<(u32, u32)> = s.pairs.iter().filter_map(arrow).collect();
+    let mut all = vec![Directed {
+        t: s.q_from_p,
+        arrows: there.clone(),
+    }];
+    if s.class != Class::Mirror {
+        all.push(Directed {
+            t: s.q_from_p.inverse(),
+            arrows: there.into_iter().map(|(p, q)| (q, p)).collect(),
+        });
+    }
+    all
+}
+
+/// A motion and, for each sample of its patch, the sample it comes to lie on.
+struct Directed {
+    t: Isometry,
+    arrows: Vec<(u32, u32)>,
+}
+
+/// The products of two symmetries, each way round, with the samples they are thought to hold for.
+fn products(
+    surroundings: &Surroundings<'_>,
+    index: &PointIndex<3>,
+    a: &Symmetry,
+    b: &Symmetry,
+) -> Vec<(Isometry, Vec<u32>)> {
+    let count = surroundings.ground.samples.list.len();
+    let (first, second) = (
+        directions(a, index, surroundings),
+        directions(b, index, surroundings),
+    );
+    let mut found = Vec::new();
+    for x in &first {
+        for y in &second {
+            for (f, g) in [(x, y), (y, x)] {
+                let mut starts = vec![false; count];
+                for (p, _) in &g.arrows {
+                    starts[*p as usize] = true;
+                }
+                let seeds: Vec<u32> = f
+                    .arrows
+                    .iter()
+                    .filter(|(_, q)| starts[*q as usize])
+                    .map(|(p, _)| *p)
+                    .collect();
+                let least = f.arrows.len().min(g.arrows.len());
+                let t = g.t.after(&f.t);
+                let moves = surroundings.space.distance(&t, &Isometry::identity()) > MIN_MOTION;
+                if moves && seeds.len() as f64 > MEETING * least as f64 {
+                    found.push((t, sorted(seeds)));
+                }
+            }
+        }
+    }
+    found
+}
+
+fn sorted(mut seeds: Vec<u32>) -> Vec<u32> {
+    seeds.sort_unstable();
+    seeds.dedup();
+    seeds
+}
+
+/// Improper motions that nearly are mirrors become ones where these hold.
+fn mirrors_beside(surroundings: &Surroundings<'_>, symmetries: &mut Vec<Symmetry>) {
+    let near = 0.5 * surroundings.params.cluster.bandwidth;
+    let mut k = 0;
+    while k < symmetries.len() {
+        let s = &symmetries[k];
+        let mirror = Isometry::mirror(&s.q_from_p.nearest_mirror(&Point::origin()));
+        let beside = s.class == Class::Improper
+            && surroundings.space.distance(&s.q_from_p, &mirror) < NEARLY_MIRROR;
+        if beside {
+            let ground = s.ground(surroundings.ground.samples.list.len());
+            let seeds = (0..)
+                .zip(&ground)
+                .filter(|(_, m)| **m)
+                .map(|(i, _)| i)
+                .collect();
+            if let Some(as_mirror) = verified(surroundings, &mirror, seeds, s.height) {
+                let motion = symmetries.remove(k);
+                let known = symmetries
+                    .iter()
+                    .any(|o| is_same(o, &as_mirror, surroundings.space, 0.2 * near));
+                if !known && as_mirror.rms < 1.5 * motion.rms + 1e-3 {
+                    symmetries.insert(k, as_mirror);
+                } else {
+                    k = k.wrapping_sub(1);
+                }
+            }
+        }
+        k = k.wrapping_add(1);
+    }
+}
