@@ -103,8 +103,19 @@ fn verified(
         class,
         height,
         seeds,
+        near: true,
     };
-    let s = verify(ground, describer, &candidate, &params.patch).ok()?;
+    let s = verify(ground, describer, &candidate, &params.patch);
+    if std::env::var("DEBUG").is_ok()
+        && let Err(r) = &s
+    {
+        eprintln!(
+            "product refused: seeds {} {}",
+            candidate.seeds.len(),
+            r.reason
+        );
+    }
+    let s = s.ok()?;
     surroundings.more_than_sliding(s).ok()
 }
 
@@ -199,18 +210,19 @@ fn mirrors_beside(surroundings: &Surroundings<'_>, symmetries: &mut Vec<Symmetry
                 .filter(|(_, m)| **m)
                 .map(|(i, _)| i)
                 .collect();
-            if let Some(as_mirror) = verified(surroundings, &mirror, seeds, s.height) {
-                let motion = symmetries.remove(k);
+            let as_mirror = verified(surroundings, &mirror, seeds, s.height)
+                .filter(|m| m.rms < 1.5 * s.rms + 1e-3 && m.area_fraction > 0.5 * s.area_fraction);
+            if let Some(m) = as_mirror {
                 let known = symmetries
                     .iter()
-                    .any(|o| is_same(o, &as_mirror, surroundings.space, 0.2 * near));
-                if !known && as_mirror.rms < 1.5 * motion.rms + 1e-3 {
-                    symmetries.insert(k, as_mirror);
-                } else {
-                    k = k.wrapping_sub(1);
+                    .any(|o| is_same(o, &m, surroundings.space, 0.2 * near));
+                if known {
+                    symmetries.remove(k);
+                    continue;
                 }
+                symmetries[k] = m;
             }
         }
-        k = k.wrapping_add(1);
+        k += 1;
     }
 }

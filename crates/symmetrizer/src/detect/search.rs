@@ -221,6 +221,7 @@ fn pass(
             space,
             &params.patch,
         )
+        .and_then(|s| surroundings.more_than_sliding(s))
         .and_then(|s| surroundings.weigh_against_chance(s, cluster, cloud, ctx))
         .and_then(|s| as_good(s, &found.symmetries, ground));
         match grown {
@@ -262,6 +263,12 @@ pub struct Surroundings<'a> {
 /// A part has an isometry by sliding when it comes to this of itself, rms fraction of L.
 const IMPLIED: f64 = 0.03;
 
+/// An isometry that sliding parts imply must hold for this share of what lies elsewhere, as a mug's
+/// mirror does for its handle,
+const MIN_ELSEWHERE: f64 = 0.5;
+/// and this must be so much of the whole surface.
+const MIN_LEFT: f64 = 0.03;
+
 /// Shuffles of the votes that chance is estimated from.
 const SHUFFLES: usize = 4;
 
@@ -270,22 +277,33 @@ impl Surroundings<'_> {
     /// themselves are not counted: a vase has all planes through its axis, which is one symmetry.
     pub fn more_than_sliding(&self, s: Symmetry) -> std::result::Result<Symmetry, Refusal> {
         let samples = self.ground.samples;
-        let mut own = s.ground(samples.list.len());
+        let mut elsewhere = vec![true; samples.list.len()];
         let implied = self
             .continuous
             .iter()
             .filter(|c| c.implies(&s.q_from_p, samples, IMPLIED));
-        let mut any = false;
         for part in implied {
-            any = true;
-            part.samples.iter().for_each(|&i| own[i as usize] = false);
+            part.samples
+                .iter()
+                .for_each(|&i| elsewhere[i as usize] = false);
         }
-        let left = own.iter().filter(|m| **m).count() as f64 / own.len().max(1) as f64;
-        if any && left < self.params.patch.least_area(s.class) {
-            let reason = "implied by a continuous symmetry".to_owned();
-            return Err(s.refuse(reason, samples));
+        let rest = elsewhere.iter().filter(|e| **e).count();
+        if rest == elsewhere.len() {
+            return Ok(s);
         }
-        Ok(s)
+        let own = s.ground(samples.list.len());
+        let left = own
+            .iter()
+            .zip(&elsewhere)
+            .filter(|(o, e)| **o && **e)
+            .count();
+        let holds = left as f64 >= MIN_ELSEWHERE * rest as f64
+            && left as f64 >= MIN_LEFT * elsewhere.len() as f64;
+        if holds {
+            Ok(s)
+        } else {
+            Err(s.refuse("implied by a continuous symmetry".to_owned(), samples))
+        }
     }
 
     /// Refuses a mirror whose cluster is hardly higher than chance, adding this to its doubt: the

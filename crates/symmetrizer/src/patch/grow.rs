@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use crate::cluster::Cluster;
 use crate::geom::{Point, PointIndex};
 use crate::pair::Pair;
-use crate::patch::judge::judge;
+use crate::patch::judge::{Grown, judge};
 use crate::patch::refine::{Contact, refine, weigh};
 use crate::patch::symmetry::{PatchPair, Refusal, Symmetry};
 use crate::sample::Samples;
@@ -137,6 +137,7 @@ pub fn grow_patch(
         class,
         height: cluster.height,
         seeds: sorted(seeds.collect()),
+        near: false,
     };
     verify(ground, describer, &candidate, params)
 }
@@ -158,6 +159,8 @@ pub struct Candidate {
     pub height: f64,
     /// Samples to grow from, increasing.
     pub seeds: Vec<u32>,
+    /// Whether the isometry is near already: then nothing further away is drawn in.
+    pub near: bool,
 }
 
 /// Grows the patch of a candidate, as [`grow_patch`] does that of a cluster.
@@ -183,7 +186,9 @@ pub fn verify(
     let nowhere = || "its votes do not hold on the surface".to_owned();
     let tolerance = params.tolerance_of(*class);
     let mirror = *class == Class::Mirror;
-    let settled = if mirror {
+    let settled = if mirror && candidate.near {
+        settle(ground, candidate, &NARROW, params)
+    } else if mirror {
         let both = [&WIDE[..], &NARROW[..]].map(|rounds| settle(ground, candidate, rounds, params));
         let [wide, narrow] = both;
         best_supported(ground, wide, narrow, params)
@@ -199,17 +204,15 @@ pub fn verify(
     if grown.is_empty() {
         return Err(refuse(t, nowhere()));
     }
-    judge(
-        ground,
-        describer,
-        grown,
+    let grown = Grown {
         t,
-        *class,
-        candidate.height,
+        class: *class,
+        height: candidate.height,
+        pairs: grown,
         reached,
-        params,
-    )
-    .map_err(|reason| refuse(t, reason))
+        near: candidate.near,
+    };
+    judge(ground, describer, grown, params).map_err(|reason| refuse(t, reason))
 }
 
 /// An isometry that has come to rest on the surface.

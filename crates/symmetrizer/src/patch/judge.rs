@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::geom::{PointIndex, median};
+use crate::geom::{Point, PointIndex, median};
 use crate::patch::grow::{Ground, PatchParams, contacts, image};
 use crate::patch::likeness::unlikeness;
 use crate::patch::refine::firmness;
@@ -11,36 +11,53 @@ use crate::sample::Sample;
 use crate::sample::samples::Describer;
 use crate::transform::{Ambient, Class, Correspondence, Isometry, MirrorFit, optimal_mirror};
 
-/// The symmetry of a patch grown to where contacts were `reached` apart, or the reason why it is none.
+/// A patch to be judged.
+pub struct Grown {
+    /// The isometry.
+    pub t: Isometry,
+    /// Its class.
+    pub class: Class,
+    /// Height of its cluster.
+    pub height: f64,
+    /// The pairs.
+    pub pairs: Vec<PatchPair>,
+    /// How far apart contacts may be, fraction of L.
+    pub reached: f64,
+    /// Whether it follows from other symmetries.
+    pub near: bool,
+}
+
+/// What follows from other symmetries may fill its tolerance by so much more.
+const DERIVED: f64 = 1.2;
+
+/// The symmetry of a grown patch, or the reason why it is none.
 pub fn judge(
     ground: &Ground<'_>,
     describer: &Describer<'_>,
-    grown: Vec<PatchPair>,
-    t: Isometry,
-    class: Class,
-    height: f64,
-    reached: f64,
+    grown: Grown,
     params: &PatchParams,
 ) -> Result<Symmetry, String> {
+    let Grown { t, class, .. } = grown;
     let image = match class {
-        Class::Mirror => grown.iter().map(|p| p.sample).collect(),
-        Class::Proper | Class::Improper => image(ground, &grown),
+        Class::Mirror => grown.pairs.iter().map(|p| p.sample).collect(),
+        Class::Proper | Class::Improper => image(ground, &grown.pairs),
     };
-    let area_fraction = covered(&grown, &image, ground.samples.list.len());
+    let area_fraction = covered(&grown.pairs, &image, ground.samples.list.len());
     large_enough(area_fraction, class, params)?;
-    well_determined(ground, &grown, class, params)?;
-    let mean_square = grown.iter().map(|p| p.residual.powi(2)).sum::<f64>() / grown.len() as f64;
-    let rms = mean_square.sqrt();
-    let filled = rms / reached;
-    if class != Class::Mirror && filled > params.max_filled {
+    well_determined(ground, &grown.pairs, class, params)?;
+    let squares = grown.pairs.iter().map(|p| p.residual.powi(2));
+    let rms = (squares.sum::<f64>() / grown.pairs.len() as f64).sqrt();
+    let filled = rms / grown.reached;
+    let most = params.max_filled * if grown.near { DERIVED } else { 1.0 };
+    if class != Class::Mirror && filled > most {
         return Err(format!(
             "its image passes by the surface rather than lies on it (rms {filled:.2} of the tolerance)"
         ));
     }
     let (confusion, most) = match class {
-        Class::Mirror => (confusion(ground, &grown), params.max_confusion),
+        Class::Mirror => (confusion(ground, &grown.pairs), params.max_confusion),
         _ => (
-            unlikeness(ground, describer, &t, &grown),
+            unlikeness(ground, describer, &t, &grown.pairs),
             params.max_unlikeness,
         ),
     };
@@ -50,21 +67,19 @@ pub fn judge(
         ));
     }
     let q_from_p = match class {
-        Class::Mirror => {
-            Isometry::mirror(&t.nearest_mirror(&nalgebra::Point3::origin()).canonical())
-        }
+        Class::Mirror => Isometry::mirror(&t.nearest_mirror(&Point::origin()).canonical()),
         Class::Proper | Class::Improper => t,
     };
     Ok(Symmetry {
         id: 0,
         class,
         q_from_p,
-        height,
+        height: grown.height,
         area_fraction,
         rms,
         confusion,
         doubt: filled + 2.0 * confusion,
-        pairs: grown,
+        pairs: grown.pairs,
         image,
     })
 }
