@@ -26,8 +26,10 @@ use symmetrizer::optimize::schedule::{Settings, optimize};
 use symmetrizer::pair::mirror_pairs;
 use symmetrizer::patch::grow::{Ground, grow_patch};
 use symmetrizer::sample::sample;
+use symmetrizer::sample::samples::Describer;
 use symmetrizer::shape::working::Working;
 use symmetrizer::shape::{ClosestPoint, Surface, io};
+use symmetrizer::transform::Class;
 use symmetrizer::{CancelToken, Context, Event};
 
 #[path = "../tests/common/mod.rs"]
@@ -71,7 +73,7 @@ impl Bunny {
     fn new(path: &Path) -> Self {
         let (working, diagonal) = common::working(&common::load(path));
         let surface = working.surface;
-        let params = DetectParams::default();
+        let params = DetectParams::default().mirrors_only();
         Self {
             found: detect(&surface, &params, &mut Context::new(7)).expect("detection"),
             surface,
@@ -107,26 +109,44 @@ fn reading(c: &mut Criterion, path: &Path) {
 fn detection(c: &mut Criterion, b: &Bunny) {
     let new = || Context::new(7);
     stage(c, "sample", || {
-        sample(&b.surface, &b.detect.sample, &mut new())
+        sample(
+            &Describer::new(&b.surface, 1.0),
+            &b.detect.sample,
+            &mut new(),
+        )
     });
     stage(c, "pair", || {
         mirror_pairs(&b.found.samples, &b.detect.pair, &mut new())
     });
     stage(c, "cluster", || {
-        Votes::new(&b.found.pairs, &b.found.space).clusters(&b.detect.cluster)
+        Votes::new(&b.found.clouds[0].pairs, &b.found.space).clusters(&b.detect.cluster)
     });
-    let clusters = Votes::new(&b.found.pairs, &b.found.space).clusters(&b.detect.cluster);
+    let clusters = Votes::new(&b.found.clouds[0].pairs, &b.found.space).clusters(&b.detect.cluster);
     let closest = ClosestPoint::new(&b.surface);
+    let describer = Describer::new(&b.surface, 1.0);
     let ground = Ground {
         surface: &b.surface,
         closest: &closest,
         samples: &b.found.samples,
     };
     stage(c, "patch of the highest cluster", || {
-        grow_patch(&ground, &b.found.pairs, &clusters[0], &b.detect.patch)
+        let pairs = &b.found.clouds[0].pairs;
+        let (space, patch) = (&b.found.space, &b.detect.patch);
+        grow_patch(
+            &ground,
+            &describer,
+            pairs,
+            &clusters[0],
+            Class::Mirror,
+            space,
+            patch,
+        )
     });
-    stage(c, "detect, all of it", || {
+    stage(c, "detect mirrors", || {
         detect(&b.surface, &b.detect, &mut new())
+    });
+    stage(c, "detect all kinds", || {
+        detect(&b.surface, &DetectParams::default(), &mut new())
     });
 }
 
@@ -141,7 +161,7 @@ fn deformation(c: &mut Criterion, b: &Bunny) {
         step: b.optimize.step,
     };
     let patch = &b.detect.patch;
-    let plane = b.found.symmetries[0].plane;
+    let plane = b.found.symmetries[0].plane();
     let snapshot = moving.snapshot();
     let couples = guided_couples(&snapshot, &plane, patch.tolerance, patch.min_cos, |_| true);
     stage(c, "one contraction step", || {

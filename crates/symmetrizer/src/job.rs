@@ -6,7 +6,7 @@ pub mod pictures;
 
 use crate::apply::measure::{Asymmetry, AsymmetryReport, asymmetry, distortion};
 use crate::context::Context;
-use crate::detect::{DetectParams, Detection, Group, Wanted, detect};
+use crate::detect::{DetectParams, Detection, Group, detect};
 use crate::error::Result;
 use crate::optimize::schedule::Settings;
 use crate::optimize::{Optimized, Outcome, optimize};
@@ -94,15 +94,6 @@ fn find_in(
     })
 }
 
-/// What is made exact: mirrors.
-fn to_enhance(params: &Params) -> DetectParams {
-    DetectParams {
-        wanted: Wanted::mirrors(),
-        slip: None,
-        ..params.detect()
-    }
-}
-
 /// Makes `mesh` symmetric (section 4.2): finds its symmetries, contracts and merges their clusters,
 /// and measures both states.
 ///
@@ -114,7 +105,7 @@ fn to_enhance(params: &Params) -> DetectParams {
 pub fn symmetrize(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result<Symmetrized> {
     mesh.check()?;
     params.check()?;
-    let detect = to_enhance(params);
+    let detect = params.detect().mirrors_only();
     let before = find_in(Working::new(mesh)?, mesh, &detect, ctx)?;
     let measured = ctx.stage("measure", |ctx| before.asymmetry(&[], ctx))?;
     let settings = Settings {

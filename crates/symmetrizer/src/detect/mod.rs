@@ -20,6 +20,7 @@ use crate::patch::grow::Ground;
 use crate::patch::{PatchParams, Refusal, Symmetry};
 use crate::sample::samples::Describer;
 use crate::sample::{SampleParams, Samples, probes, sample};
+use crate::shape::fairing::faired;
 use crate::shape::{ClosestPoint, Surface};
 use crate::slip::{Continuous, SlipParams, continuous};
 use crate::transform::{Class, TransformSpace};
@@ -55,6 +56,17 @@ impl Default for DetectParams {
     }
 }
 
+impl DetectParams {
+    /// The same for mirrors alone: what is made exact.
+    pub fn mirrors_only(self) -> Self {
+        Self {
+            wanted: Wanted::mirrors(),
+            slip: None,
+            ..self
+        }
+    }
+}
+
 /// The votes of one class.
 pub struct Cloud {
     /// The class.
@@ -83,6 +95,9 @@ pub struct Detection {
     pub continuous: Vec<Continuous>,
 }
 
+/// On a surface that was noisy curvature is fitted over radii this much wider.
+const WIDENING: f64 = 2.0;
+
 /// Finds the symmetries of `surface`, partial ones too.
 ///
 /// # Errors
@@ -92,7 +107,11 @@ pub fn detect(
     params: &DetectParams,
     ctx: &mut Context<'_>,
 ) -> Result<Detection> {
-    let samples = ctx.stage("sample", |ctx| sample(surface, &params.sample, ctx))?;
+    // Noise as high as the triangles are long hides curvature: the shape under it is looked at.
+    let fair = faired(surface);
+    let surface = fair.as_ref().unwrap_or(surface);
+    let describer = Describer::new(surface, if fair.is_some() { WIDENING } else { 1.0 });
+    let samples = ctx.stage("sample", |ctx| sample(&describer, &params.sample, ctx))?;
     let space = TransformSpace::new(samples.list.iter().map(|s| (s.position, 1.0)));
     let closest = ClosestPoint::new(surface);
     let ground = Ground {
@@ -108,9 +127,8 @@ pub fn detect(
     let probes = ctx.stage("probe", |ctx| {
         let rigid = classes.iter().any(|&c| c != Class::Mirror);
         let count = if rigid { params.sample.count } else { 0 };
-        Ok(probes(surface, &samples, count, &mut ctx.rng("probe")))
+        Ok(probes(&describer, &samples, count, &mut ctx.rng("probe")))
     })?;
-    let describer = Describer::new(surface);
     let surroundings = Surroundings {
         ground: &ground,
         space: &space,

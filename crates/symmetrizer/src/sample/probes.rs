@@ -10,7 +10,7 @@ use crate::geom::PointIndex;
 use crate::sample::blue_noise::{DARTS_PER_SAMPLE, spacing, spread};
 use crate::sample::samples::{Describer, Sample, Samples};
 use crate::sample::uniform::uniform;
-use crate::shape::{Surface, SurfacePoint};
+use crate::shape::SurfacePoint;
 
 /// Ground is lively whose relief has at least this share of the strength that a tenth of the surface
 /// exceeds; ours.
@@ -24,8 +24,14 @@ pub struct Probe {
     pub place: u32,
 }
 
-/// About `count` samples of the lively part of `surface`; none where there is no such part.
-pub fn probes(surface: &Surface, samples: &Samples, count: usize, rng: &mut Pcg64) -> Vec<Probe> {
+/// About `count` samples of the lively part of the describer's surface; none where there is no such part.
+pub fn probes(
+    describer: &Describer<'_>,
+    samples: &Samples,
+    count: usize,
+    rng: &mut Pcg64,
+) -> Vec<Probe> {
+    let surface = describer.surface;
     let strengths: Vec<f64> = samples.list.iter().map(|s| s.relief.strength()).collect();
     let mut sorted = strengths.clone();
     sorted.sort_by(f64::total_cmp);
@@ -48,7 +54,6 @@ pub fn probes(surface: &Surface, samples: &Samples, count: usize, rng: &mut Pcg6
         .filter(|at| place(at).is_some_and(|(i, _)| lively[i as usize]))
         .collect();
     let kept = spread(surface, darts, spacing(share * surface.area(), count), rng);
-    let describer = Describer::new(surface);
     kept.par_iter()
         .filter_map(|at| {
             Some(Probe {

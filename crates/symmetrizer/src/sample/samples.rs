@@ -64,7 +64,8 @@ pub struct Samples {
 
 /// Makes samples of surface points.
 pub struct Describer<'a> {
-    surface: &'a Surface,
+    /// The surface.
+    pub surface: &'a Surface,
     cloud: Cloud,
     corners: Corners,
     harmonics: Harmonics,
@@ -73,9 +74,9 @@ pub struct Describer<'a> {
 }
 
 impl<'a> Describer<'a> {
-    /// For points of `surface`.
-    pub fn new(surface: &'a Surface) -> Self {
-        let r0 = base_radius(surface);
+    /// For points of `surface`, the smallest fit that of [`base_radius`] times `widening`.
+    pub fn new(surface: &'a Surface, widening: f64) -> Self {
+        let r0 = widening * base_radius(surface);
         Self {
             surface,
             cloud: Cloud::new(surface, r0 / 4.0),
@@ -108,17 +109,21 @@ impl<'a> Describer<'a> {
     }
 }
 
-/// Samples `surface` (section 2): blue noise, signatures, neighbour graph.
+/// Samples the surface of `describer` (section 2): blue noise, signatures, neighbour graph.
 ///
 /// # Errors
 /// [`Error::Params`] for fewer than 100 samples; [`Error::Cancelled`].
-pub fn sample(surface: &Surface, params: &SampleParams, ctx: &mut Context<'_>) -> Result<Samples> {
+pub fn sample(
+    describer: &Describer<'_>,
+    params: &SampleParams,
+    ctx: &mut Context<'_>,
+) -> Result<Samples> {
+    let surface = describer.surface;
     if params.count < 100 {
         return Err(Error::params("sample.count", "at least 100 are needed"));
     }
     let (points, spacing) = blue_noise(surface, params.count, &mut ctx.rng("sample"));
     ctx.progress(0.2)?;
-    let describer = Describer::new(surface);
     let list: Vec<Sample> = points.par_iter().map(|at| describer.sample(at)).collect();
     ctx.progress(0.9)?;
     let neighbors = neighbors(&list, 2.1 * spacing);

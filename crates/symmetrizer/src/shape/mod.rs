@@ -6,6 +6,7 @@ pub mod cloud;
 pub mod crossings;
 pub mod curvature;
 pub mod document;
+pub mod fairing;
 pub mod io;
 pub mod mesh;
 pub mod models;

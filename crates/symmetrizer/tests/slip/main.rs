@@ -12,6 +12,7 @@ use common::{sphere, union};
 use shapes::{drawn, grid, rectangle, stretched, tin, tube, turned};
 use symmetrizer::Context;
 use symmetrizer::geom::{Point, Vector};
+use symmetrizer::sample::samples::Describer;
 use symmetrizer::sample::{SampleParams, Samples, sample};
 use symmetrizer::shape::Mesh;
 use symmetrizer::shape::working::Working;
@@ -28,7 +29,12 @@ struct Slides {
 fn slides(mesh: &Mesh, seed: u64) -> Slides {
     let (working, diagonal) = common::working(mesh);
     let mut ctx = Context::new(seed);
-    let samples = sample(&working.surface, &SampleParams::default(), &mut ctx).expect("samples");
+    let samples = sample(
+        &Describer::new(&working.surface, 1.0),
+        &SampleParams::default(),
+        &mut ctx,
+    )
+    .expect("samples");
     let parts = continuous(&samples, &SlipParams::default());
     for c in &parts {
         println!("{:?} {:.3} rms {:.4}", c.slip, c.area_fraction, c.rms);
