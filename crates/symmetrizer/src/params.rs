@@ -40,7 +40,7 @@ pub struct Params {
 
 /// What each parameter may be. The limits keep work and memory finite and formulas defined; within
 /// them not every value is wise.
-const RANGES: [(&str, f64, f64); 37] = [
+const RANGES: [(&str, f64, f64); 38] = [
     ("sample.count", 100.0, 20_000.0),
     ("pair.tolerance", 1e-6, 100.0),
     ("pair.partners", 1.0, 1000.0),
@@ -55,6 +55,7 @@ const RANGES: [(&str, f64, f64); 37] = [
     ("pair.max_gap", 1e-6, 10.0),
     ("patch.copy_tolerance", 1e-6, 0.5),
     ("patch.max_filled", 0.0, 2.0),
+    ("patch.max_rim", 0.0, 2.0),
     ("patch.max_chance", 0.0, 1.0),
     ("patch.max_unlikeness", 0.0, 2.0),
     ("patch.min_copy", 0.0, 1.0),

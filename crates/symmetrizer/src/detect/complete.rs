@@ -105,17 +105,7 @@ fn verified(
         seeds,
         near: true,
     };
-    let s = verify(ground, describer, &candidate, &params.patch);
-    if std::env::var("DEBUG").is_ok()
-        && let Err(r) = &s
-    {
-        eprintln!(
-            "product refused: seeds {} {}",
-            candidate.seeds.len(),
-            r.reason
-        );
-    }
-    let s = s.ok()?;
+    let s = verify(ground, describer, &candidate, &params.patch).ok()?;
     surroundings.more_than_sliding(s).ok()
 }
 

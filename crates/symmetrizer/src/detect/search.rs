@@ -105,17 +105,6 @@ fn motions(
         let mode = space.embed(&s.q_from_p);
         let by_chance: f64 = chance.iter().map(|v| v.density(&mode, h)).sum();
         let by_chance = by_chance / SHUFFLES as f64 / s.height;
-        if std::env::var("DEBUG").is_ok() {
-            eprintln!(
-                "{:?} h {:.2} area {:.3} rms {:.4} gap {:.3} doubt-gap {:.3} chance {by_chance:.3}",
-                s.class,
-                s.height,
-                s.area_fraction,
-                s.rms,
-                s.confusion,
-                s.doubt - 2.0 * s.confusion
-            );
-        }
         if by_chance > params.patch.max_chance {
             let reason = format!("as many votes come by chance ({by_chance:.2} of its height)");
             found.refused.push(s.refuse(reason, ground.samples));
@@ -335,12 +324,6 @@ impl Surroundings<'_> {
             / SHUFFLES as f64;
         let chance = chance / cluster.height;
         let doubt = symmetry.doubt + chance;
-        if std::env::var("DEBUG").is_ok() {
-            eprintln!(
-                "mirror h {:.2} area {:.2} rms {:.4} conf {:.3} chance {chance:.2} doubt {doubt:.3}",
-                symmetry.height, symmetry.area_fraction, symmetry.rms, symmetry.confusion
-            );
-        }
         if doubt <= self.params.patch.max_doubt {
             return Ok(Symmetry { doubt, ..symmetry });
         }

@@ -32,12 +32,15 @@ pub struct PatchParams {
     pub max_confusion: f64,
     /// Largest doubt about a mirror: the rms residual in units of the tolerance (a surface that merely
     /// passes by fills the tolerance evenly: .58), twice the confusion, and the share of its height
-    /// that comes by chance. 0.82, ours, decision 0012: true mirrors of the models reach .77, false ones
+    /// that comes by chance. 0.8, ours, decision 0012: true mirrors of the models reach .77, false ones
     /// start at .88.
     pub max_doubt: f64,
     /// Largest rms residual of a motion, in units of what its patch was grown to: exact copies with even
     /// noise have .33. 0.385, ours.
     pub max_filled: f64,
+    /// Largest rms residual where the patch of a motion ends, in the same units. 0.43, ours: copies end
+    /// with .37, what passes by with .45.
+    pub max_rim: f64,
     /// Largest share of a motion's height that its votes reach when their second places are shuffled. 0.03,
     /// ours.
     pub max_chance: f64,
@@ -46,7 +49,7 @@ pub struct PatchParams {
     /// Smallest firmness with which a patch holds a rigid motion against sliding. 0.02, ours.
     pub min_firmness: f64,
     /// Smallest height of a symmetry's cluster, as a share of the highest: what fewer votes speak for
-    /// is chance. 0.1, ours.
+    /// is chance. 0.15, ours.
     pub min_height: f64,
 }
 
@@ -59,12 +62,13 @@ impl Default for PatchParams {
             min_area: 0.08,
             min_copy: 0.03,
             max_confusion: 0.18,
-            max_doubt: 0.82,
+            max_doubt: 0.8,
             max_filled: 0.385,
+            max_rim: 0.43,
             max_chance: 0.03,
             max_unlikeness: 0.6,
             min_firmness: 0.02,
-            min_height: 0.1,
+            min_height: 0.15,
         }
     }
 }

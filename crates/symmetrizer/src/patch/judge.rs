@@ -48,8 +48,10 @@ pub fn judge(
     let squares = grown.pairs.iter().map(|p| p.residual.powi(2));
     let rms = (squares.sum::<f64>() / grown.pairs.len() as f64).sqrt();
     let filled = rms / grown.reached;
-    let most = params.max_filled * if grown.near { DERIVED } else { 1.0 };
-    if class != Class::Mirror && filled > most {
+    let slack = if grown.near { DERIVED } else { 1.0 };
+    let drifts =
+        || filled > slack * params.max_filled || rim(ground, &grown) > slack * params.max_rim;
+    if class != Class::Mirror && drifts() {
         return Err(format!(
             "its image passes by the surface rather than lies on it (rms {filled:.2} of the tolerance)"
         ));
@@ -82,6 +84,29 @@ pub fn judge(
         pairs: grown.pairs,
         image,
     })
+}
+
+/// The rms residual where a patch ends, in units of what it was grown to: a copy ends where the shape
+/// does something else, a surface that passes by drifts away.
+fn rim(ground: &Ground<'_>, grown: &Grown) -> f64 {
+    let samples = ground.samples;
+    let mut member = vec![false; samples.list.len()];
+    for pair in &grown.pairs {
+        member[pair.sample as usize] = true;
+    }
+    let ends = |p: &&PatchPair| {
+        let near = &samples.neighbors[p.sample as usize];
+        near.iter().any(|&n| !member[n as usize])
+    };
+    let (mut sum, mut count) = (0.0, 0);
+    for pair in grown.pairs.iter().filter(ends) {
+        sum += pair.residual * pair.residual;
+        count += 1;
+    }
+    if count == 0 {
+        return 0.0;
+    }
+    (sum / f64::from(count)).sqrt() / grown.reached
 }
 
 /// The share of all samples that lie in a patch or in its image.
