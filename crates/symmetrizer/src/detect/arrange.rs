@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::detect::groups::Group;
-use crate::detect::search::Surroundings;
+use crate::detect::surroundings::Surroundings;
 use crate::geom::{Point, PointIndex, Vector};
 use crate::group::{Pattern, Within, fixed_together, patterns, point_group};
 use crate::patch::Symmetry;

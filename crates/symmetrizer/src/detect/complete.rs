@@ -2,10 +2,10 @@
 //! motions that nearly are ones. Each is verified on the surface like a mode of the votes.
 
 use crate::context::Context;
-use crate::detect::search::{Surroundings, as_good, is_same};
+use crate::detect::surroundings::{Surroundings, as_good, is_same};
 use crate::error::Result;
 use crate::geom::{Point, PointIndex};
-use crate::patch::grow::{Candidate, verify};
+use crate::patch::grow::{Candidate, touch, verify};
 use crate::patch::{PatchPair, Symmetry};
 use crate::transform::{Class, Isometry};
 
@@ -21,16 +21,18 @@ const NEARLY_MIRROR: f64 = 0.04;
 /// Less than this is no motion at all.
 const MIN_MOTION: f64 = 0.05;
 
-/// Adds to `symmetries` what follows from them.
+/// Adds to `symmetries` what follows from them and from `drifting`, motions that were refused.
 ///
 /// # Errors
 /// [`crate::Error::Cancelled`].
 pub fn complete(
     surroundings: &Surroundings<'_>,
     symmetries: &mut Vec<Symmetry>,
+    drifting: &[(Isometry, f64)],
     ctx: &mut Context<'_>,
 ) -> Result<()> {
     mirrors_beside(surroundings, symmetries);
+    mirrors_of_drifting(surroundings, symmetries, drifting);
     let index = sample_index(surroundings);
     let mut asked: Vec<Isometry> = Vec::new();
     let mut next = 0;
@@ -214,5 +216,47 @@ fn mirrors_beside(surroundings: &Surroundings<'_>, symmetries: &mut Vec<Symmetry
             }
         }
         k += 1;
+    }
+}
+
+/// Doubt about a mirror found beside a drifting motion at the most, without that of chance; ours.
+const MAX_DOUBT: f64 = 0.42;
+
+/// Mirrors beside refused improper motions, the highest, where they hold as a part that moves as one
+/// piece does: within a bend a mirror is never alone, and what votes for it drifts.
+fn mirrors_of_drifting(
+    surroundings: &Surroundings<'_>,
+    symmetries: &mut Vec<Symmetry>,
+    drifting: &[(Isometry, f64)],
+) {
+    let Surroundings {
+        ground,
+        space,
+        params,
+        ..
+    } = surroundings;
+    let near = 0.5 * params.cluster.bandwidth;
+    let highest = drifting.iter().map(|d| d.1).fold(0.0, f64::max);
+    let high = drifting
+        .iter()
+        .filter(|d| d.1 >= params.patch.min_height * highest);
+    for (t, height) in high.filter(|d| d.0.is_improper()) {
+        let mirror = Isometry::mirror(&t.nearest_mirror(&Point::origin()));
+        if space.distance(t, &mirror) > NEARLY_MIRROR {
+            continue;
+        }
+        let well = params.patch.copy_tolerance;
+        let touched = touch(ground, &mirror, well, params.patch.min_cos);
+        let seeds = touched.into_iter().flatten().map(|p| p.sample).collect();
+        let Some(s) = verified(surroundings, &mirror, seeds, *height) else {
+            continue;
+        };
+        let known = symmetries.iter().any(|k| is_same(k, &s, space, near));
+        if s.doubt <= MAX_DOUBT
+            && !known
+            && let Ok(s) = as_good(s, symmetries, ground)
+        {
+            symmetries.push(s);
+        }
     }
 }

@@ -4,13 +4,15 @@
 mod arrange;
 mod complete;
 pub mod groups;
+mod mirrors;
 mod search;
+mod surroundings;
 pub mod wanted;
 
 pub use groups::Group;
 pub use wanted::{Want, Wanted};
 
-use search::Surroundings;
+use surroundings::Surroundings;
 
 use crate::cluster::{ClusterParams, Votes};
 use crate::context::Context;
@@ -139,6 +141,7 @@ pub fn detect(
     let mut clouds = Vec::new();
     let mut symmetries: Vec<Symmetry> = Vec::new();
     let mut refused = Vec::new();
+    let mut drifting = Vec::new();
     for class in classes {
         let pairs = ctx.stage("pair", |ctx| match class {
             Class::Mirror => mirror_pairs(&samples, &params.pair, ctx),
@@ -156,11 +159,12 @@ pub fn detect(
         })?;
         symmetries.extend(found.symmetries);
         refused.extend(found.refused);
+        drifting.extend(found.drifting);
         clouds.push(cloud);
     }
     if clouds.iter().any(|c| c.class != Class::Mirror) {
         ctx.stage("complete", |ctx| {
-            complete::complete(&surroundings, &mut symmetries, ctx)
+            complete::complete(&surroundings, &mut symmetries, &drifting, ctx)
         })?;
     }
     for (id, s) in (0..).zip(&mut symmetries) {

@@ -27,8 +27,8 @@ pub struct Grown {
     pub near: bool,
 }
 
-/// What follows from other symmetries may fill its tolerance by so much more.
-const DERIVED: f64 = 1.2;
+/// What follows from other symmetries needs less evidence of its own by this factor.
+const DERIVED: f64 = 1.5;
 
 /// The symmetry of a grown patch, or the reason why it is none.
 pub fn judge(
@@ -43,12 +43,12 @@ pub fn judge(
         Class::Proper | Class::Improper => image(ground, &grown.pairs),
     };
     let area_fraction = covered(&grown.pairs, &image, ground.samples.list.len());
-    large_enough(area_fraction, class, params)?;
-    well_determined(ground, &grown.pairs, class, params)?;
+    let slack = if grown.near { DERIVED } else { 1.0 };
+    large_enough(area_fraction, params.least_area(class) / slack)?;
+    well_determined(ground, &grown.pairs, class, params.min_firmness / slack)?;
     let squares = grown.pairs.iter().map(|p| p.residual.powi(2));
     let rms = (squares.sum::<f64>() / grown.pairs.len() as f64).sqrt();
     let filled = rms / grown.reached;
-    let slack = if grown.near { DERIVED } else { 1.0 };
     let drifts =
         || filled > slack * params.max_filled || rim(ground, &grown) > slack * params.max_rim;
     if class != Class::Mirror && drifts() {
@@ -60,7 +60,7 @@ pub fn judge(
         Class::Mirror => (confusion(ground, &grown.pairs), params.max_confusion),
         _ => (
             unlikeness(ground, describer, &t, &grown.pairs),
-            params.max_unlikeness,
+            slack * params.max_unlikeness,
         ),
     };
     if confusion > most {
@@ -119,8 +119,7 @@ fn covered(grown: &[PatchPair], image: &[u32], count: usize) -> f64 {
     member.iter().filter(|m| **m).count() as f64 / count.max(1) as f64
 }
 
-fn large_enough(area_fraction: f64, class: Class, params: &PatchParams) -> Result<(), String> {
-    let least = params.least_area(class);
+fn large_enough(area_fraction: f64, least: f64) -> Result<(), String> {
     if area_fraction < least {
         return Err(format!(
             "holds for {:.1} % of the surface only",
@@ -136,7 +135,7 @@ fn well_determined(
     ground: &Ground<'_>,
     grown: &[PatchPair],
     class: Class,
-    params: &PatchParams,
+    min_firmness: f64,
 ) -> Result<(), String> {
     if class == Class::Mirror {
         let fit = mirror_of(ground, grown).ok_or("its pairs leave the mirror undetermined")?;
@@ -150,7 +149,7 @@ fn well_determined(
     }
     let contacts = contacts(ground, grown);
     let firmness = firmness(&contacts);
-    if firmness < params.min_firmness {
+    if firmness < min_firmness {
         return Err(format!("slides along itself (firmness {firmness:.3})"));
     }
     let moved = contacts
