@@ -40,7 +40,7 @@ pub struct Params {
 
 /// What each parameter may be. The limits keep work and memory finite and formulas defined; within
 /// them not every value is wise.
-const RANGES: [(&str, f64, f64); 38] = [
+const RANGES: [(&str, f64, f64); 39] = [
     ("sample.count", 100.0, 20_000.0),
     ("pair.tolerance", 1e-6, 100.0),
     ("pair.partners", 1.0, 1000.0),
@@ -49,6 +49,7 @@ const RANGES: [(&str, f64, f64); 38] = [
     ("cluster.bandwidth", 1e-4, 1.0),
     ("patch.tolerance", 1e-6, 0.5),
     ("patch.min_cos", -1.0, 1.0),
+    ("patch.end", 1.0, 1e6),
     ("patch.min_area", 0.0, 1.0),
     ("patch.max_confusion", 0.0, 1.0),
     ("pair.min_strength", 0.0, 10.0),

@@ -59,11 +59,16 @@ impl Default for DetectParams {
 }
 
 impl DetectParams {
-    /// The same for mirrors alone: what is made exact.
+    /// The same for what is made exact: mirrors alone, with patches as far as the tolerance, because what
+    /// nearly is symmetric is to become so.
     pub fn mirrors_only(self) -> Self {
         Self {
             wanted: Wanted::mirrors(),
             slip: None,
+            patch: PatchParams {
+                end: f64::MAX,
+                ..self.patch
+            },
             ..self
         }
     }

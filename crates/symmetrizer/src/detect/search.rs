@@ -26,9 +26,9 @@ pub struct Found {
 }
 
 /// Modes of motions grown at the most.
-const MOTIONS: usize = 300;
+const MOTIONS: usize = 400;
 /// Votes a mode must have left to be looked at.
-pub const MIN_VOTES: usize = 8;
+pub const MIN_VOTES: usize = 6;
 
 /// The symmetries among the modes of `cloud`; `known` are those of other clouds.
 pub fn search(

@@ -24,6 +24,9 @@ pub struct PatchParams {
     pub copy_tolerance: f64,
     /// Smallest cosine between carried and found normal. 0.75, ours (41 degrees).
     pub min_cos: f64,
+    /// Where a patch ends, within the tolerance: at residuals this many times those of the quarter that
+    /// holds best, times 1.5. 6, ours.
+    pub end: f64,
     /// Smallest share of the surface's area for a mirror. 0.08, ours.
     pub min_area: f64,
     /// Smallest share of the surface's area that a copy and its image have together. 0.03, ours.
@@ -59,6 +62,7 @@ impl Default for PatchParams {
             tolerance: 0.02,
             copy_tolerance: 0.008,
             min_cos: 0.75,
+            end: 6.0,
             min_area: 0.08,
             min_copy: 0.03,
             max_confusion: 0.18,
@@ -203,7 +207,7 @@ pub fn verify(
         return Err(refuse(candidate.t, nowhere()));
     };
     // A patch ends where the isometry no longer holds as it does where it holds best.
-    let reached = (6.0 * spread).clamp(0.25 * tolerance, tolerance);
+    let reached = (params.end * spread).clamp(0.25 * tolerance, tolerance);
     let grown = reach(ground, &t, reached, params.min_cos, seeds);
     if grown.is_empty() {
         return Err(refuse(t, nowhere()));
