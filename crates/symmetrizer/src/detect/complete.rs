@@ -14,7 +14,7 @@ const MOST: usize = 240;
 /// Symmetries at the most: larger groups are a matter of a continuous one.
 const MOST_FOUND: usize = 130;
 /// Two patches meet when this share of the smaller one lies in both.
-const MEETING: f64 = 0.5;
+const MEETING: f64 = 0.3;
 /// An improper motion is tried as a mirror when one moves the surface to within this of it, rms fraction
 /// of L.
 const NEARLY_MIRROR: f64 = 0.04;

@@ -114,7 +114,7 @@ fn pass(
         .map(|s| surroundings.weigh_against_chance(s, cluster, cloud, ctx))
         .and_then(|s| as_good(s, &found.symmetries, ground));
         match grown {
-            Err(refusal) => found.refused.push(refusal),
+            Err(refusal) => found.refused.push(*refusal),
             Ok(symmetry) if symmetry.doubt > params.patch.max_doubt => {
                 found.put_aside(symmetry, ground)
             }
@@ -150,7 +150,7 @@ impl Found {
         if doubt <= MAX_SUPPORTED && symmetry.area_fraction >= MIN_SUPPORTED {
             self.doubtful.push(symmetry.clone());
         }
-        self.refused.push(symmetry.refuse(reason, ground.samples));
+        self.refused.push(*symmetry.refuse(reason, ground.samples));
     }
 }
 

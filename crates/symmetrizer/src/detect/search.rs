@@ -85,7 +85,7 @@ fn motions(
             Ok(symmetry) => good.push(symmetry),
             Err(refusal) => {
                 found.drifting.push((refusal.q_from_p, refusal.height));
-                found.refused.push(refusal);
+                found.refused.push(*refusal);
             }
         }
     }
@@ -109,12 +109,12 @@ fn motions(
         let by_chance = by_chance / SHUFFLES as f64 / s.height;
         if by_chance > params.patch.max_chance {
             let reason = format!("as many votes come by chance ({by_chance:.2} of its height)");
-            found.refused.push(s.refuse(reason, ground.samples));
+            found.refused.push(*s.refuse(reason, ground.samples));
             continue;
         }
         match as_good(s, &accepted, ground) {
             Ok(s) => accepted.push(s),
-            Err(refusal) => found.refused.push(refusal),
+            Err(refusal) => found.refused.push(*refusal),
         }
     }
     found.symmetries = accepted.split_off(known.len());

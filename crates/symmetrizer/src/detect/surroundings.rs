@@ -39,7 +39,7 @@ pub const SHUFFLES: usize = 4;
 impl Surroundings<'_> {
     /// Refuses a symmetry of which too little is left when parts that have it by sliding along
     /// themselves are not counted: a vase has all planes through its axis, which is one symmetry.
-    pub fn more_than_sliding(&self, s: Symmetry) -> std::result::Result<Symmetry, Refusal> {
+    pub fn more_than_sliding(&self, s: Symmetry) -> std::result::Result<Symmetry, Box<Refusal>> {
         let samples = self.ground.samples;
         let mut elsewhere = vec![true; samples.list.len()];
         let implied = self
@@ -109,7 +109,7 @@ pub fn as_good(
     s: Symmetry,
     found: &[Symmetry],
     ground: &Ground<'_>,
-) -> std::result::Result<Symmetry, Refusal> {
+) -> std::result::Result<Symmetry, Box<Refusal>> {
     let count = ground.samples.list.len();
     let own = s.ground(count);
     let size = own.iter().filter(|m| **m).count();

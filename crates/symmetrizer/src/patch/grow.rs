@@ -134,7 +134,7 @@ pub fn grow_patch(
     class: Class,
     space: &TransformSpace,
     params: &PatchParams,
-) -> Result<Symmetry, Refusal> {
+) -> Result<Symmetry, Box<Refusal>> {
     let t = start(ground.samples, pairs, cluster, class, space);
     let votes = cluster.votes.iter().map(|&i| &pairs[i as usize]);
     // Either end of a mirror's vote lies in the patch; else the first does, the second in the image.
@@ -180,16 +180,18 @@ pub fn verify(
     describer: &Describer<'_>,
     candidate: &Candidate,
     params: &PatchParams,
-) -> Result<Symmetry, Refusal> {
+) -> Result<Symmetry, Box<Refusal>> {
     let Candidate { class, seeds, .. } = candidate;
-    let refuse = |t: Isometry, reason: String| Refusal {
-        class: *class,
-        q_from_p: t,
-        height: candidate.height,
-        reason,
-        near: seeds.first().map_or(Point::origin(), |&s| {
-            ground.samples.list[s as usize].position
-        }),
+    let refuse = |t: Isometry, reason: String| {
+        Box::new(Refusal {
+            class: *class,
+            q_from_p: t,
+            height: candidate.height,
+            reason,
+            near: seeds.first().map_or(Point::origin(), |&s| {
+                ground.samples.list[s as usize].position
+            }),
+        })
     };
     let nowhere = || "its votes do not hold on the surface".to_owned();
     let tolerance = params.tolerance_of(*class);

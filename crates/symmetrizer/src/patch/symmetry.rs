@@ -54,15 +54,15 @@ impl Symmetry {
     }
 
     /// This symmetry as one that is none after all.
-    pub fn refuse(self, reason: String, samples: &Samples) -> Refusal {
+    pub fn refuse(self, reason: String, samples: &Samples) -> Box<Refusal> {
         let first = self.pairs.first().map(|p| &samples.list[p.sample as usize]);
-        Refusal {
+        Box::new(Refusal {
             class: self.class,
             q_from_p: self.q_from_p,
             height: self.height,
             reason,
             near: first.map_or(Point::origin(), |s| s.position),
-        }
+        })
     }
 
     /// The mirror plane; of what is none, the plane of the nearest mirror.

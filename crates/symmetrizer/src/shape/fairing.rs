@@ -12,6 +12,9 @@ const MU: f64 = -0.526;
 /// A surface whose median angle between neighbouring triangles exceeds this is rough: models without
 /// noise, coarse ones too, stay below 24 degrees. Radians.
 const ROUGH: f64 = 30.0 * std::f64::consts::PI / 180.0;
+/// Only a surface with triangles this small, fraction of L, can be noisy: a coarse one has large angles of
+/// its own, a cube nothing else.
+const FINE: f64 = 0.04;
 /// Fairing ends at this. Radians.
 const FAIR: f64 = 12.0 * std::f64::consts::PI / 180.0;
 /// Pairs of steps between looks at the angles, and how many looks at the most.
@@ -21,7 +24,7 @@ const LOOKS: usize = 8;
 /// The surface without its noise, its triangles as they were; `None` where it is not rough.
 pub fn faired(surface: &Surface) -> Option<Surface> {
     let sides = sides_with_faces(surface);
-    if roughness(surface, &sides) < ROUGH {
+    if surface.median_edge() > FINE || roughness(surface, &sides) < ROUGH {
         return None;
     }
     let neighbors = neighbors(surface, &sides);
@@ -116,7 +119,7 @@ mod tests {
     use rand_pcg::Pcg64;
     use rand_pcg::rand_core::SeedableRng;
 
-    /// A sphere of unit radius, `noise` along its normals.
+    /// A sphere of radius 1/4, as L = 1 has it, `noise` in units of the radius along its normals.
     fn sphere(noise: f64) -> Surface {
         let (rows, columns) = (40_u32, 80_u32);
         let mut rng = Pcg64::seed_from_u64(5);
@@ -126,7 +129,8 @@ mod tests {
                 let t = std::f64::consts::PI * f64::from(i) / f64::from(rows);
                 let p = std::f64::consts::TAU * f64::from(j) / f64::from(columns);
                 let r = 1.0 + noise * rng.random_range(-1.0..1.0);
-                positions.push(Point::new(t.sin() * p.cos(), t.sin() * p.sin(), t.cos()) * r);
+                positions
+                    .push(Point::new(t.sin() * p.cos(), t.sin() * p.sin(), t.cos()) * (0.25 * r));
             }
         }
         let at = |i: u32, j: u32| (i - 1) * columns + j % columns;
@@ -144,7 +148,7 @@ mod tests {
         let squares = surface
             .positions
             .iter()
-            .map(|x| (x.coords.norm() - 1.0).powi(2));
+            .map(|x| (4.0 * x.coords.norm() - 1.0).powi(2));
         (squares.sum::<f64>() / surface.positions.len() as f64).sqrt()
     }
 
@@ -154,6 +158,13 @@ mod tests {
         let fair = faired(&rough).expect("rough");
         assert!(rms_from_sphere(&rough) > 0.02);
         assert!(rms_from_sphere(&fair) < 0.008, "{}", rms_from_sphere(&fair));
+    }
+
+    #[test]
+    fn a_coarse_surface_is_left_alone() {
+        let rough = sphere(0.04);
+        let grown = rough.positions.iter().map(|x| x * 3.0).collect();
+        assert!(faired(&rough.with_positions(grown)).is_none());
     }
 
     #[test]
