@@ -61,9 +61,6 @@ pub fn detect(args: &DetectArgs, desk: &Desk) -> Result<Answer> {
     desk.say(&summary::shape(&report.input.shape));
     desk.say("\n");
     desk.say(&summary::symmetries(&report.input, true));
-    Ok(if found.symmetries().is_empty() {
-        Answer::No
-    } else {
-        Answer::Yes
-    })
+    let none = found.symmetries().is_empty() && found.detection.continuous.is_empty();
+    Ok(if none { Answer::No } else { Answer::Yes })
 }

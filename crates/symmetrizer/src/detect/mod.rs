@@ -24,7 +24,7 @@ use crate::sample::samples::Describer;
 use crate::sample::{SampleParams, Samples, probes, sample};
 use crate::shape::fairing::faired;
 use crate::shape::{ClosestPoint, Surface};
-use crate::slip::{Continuous, Slip, SlipParams, continuous};
+use crate::slip::{Continuous, SlipParams, continuous};
 use crate::transform::{Class, TransformSpace};
 
 /// Parameters of detection, a section for each stage.
@@ -175,10 +175,9 @@ pub fn detect(
     for (id, s) in (0..).zip(&mut symmetries) {
         s.id = id;
     }
-    // A plane's slides keep flat ground out of clusters; they are no symmetry that one would look for.
     let continuous = continuous
         .iter()
-        .filter(|c| c.slip != Slip::Plane)
+        .filter(|c| c.is_telling(&samples))
         .cloned()
         .collect();
     let groups = arrange::arrange(&surroundings, &symmetries);

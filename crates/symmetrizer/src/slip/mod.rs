@@ -17,6 +17,7 @@ pub use params::SlipParams;
 pub use search::continuous;
 
 use crate::geom::{Point, Vector};
+use crate::sample::Samples;
 
 /// The ways in which a surface can slide along itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
@@ -54,4 +55,29 @@ pub struct Continuous {
     pub area_fraction: f64,
     /// rms angle between the slide and the surface, radians.
     pub rms: f64,
+}
+
+/// Directions of normals, this far apart (cosine), from which on an extrusion is more than flat faces.
+const DIRECTION: f64 = 0.966;
+const MIN_DIRECTIONS: usize = 5;
+
+impl Continuous {
+    /// Whether it is worth telling. A plane's slides, and those along the edges of a few flat faces, keep
+    /// flat ground out of other symmetries; nobody would look for them.
+    pub fn is_telling(&self, samples: &Samples) -> bool {
+        match self.slip {
+            Slip::Plane => false,
+            Slip::Extrusion => {
+                let mut directions: Vec<Vector> = Vec::new();
+                for &i in &self.samples {
+                    let n = samples.list[i as usize].crisp;
+                    if directions.iter().all(|d| d.dot(&n) < DIRECTION) {
+                        directions.push(n);
+                    }
+                }
+                directions.len() >= MIN_DIRECTIONS
+            }
+            _ => true,
+        }
+    }
 }
