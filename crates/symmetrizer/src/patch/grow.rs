@@ -35,7 +35,7 @@ pub struct PatchParams {
     pub max_confusion: f64,
     /// Largest doubt about a mirror: the rms residual in units of the tolerance (a surface that merely
     /// passes by fills the tolerance evenly: .58), twice the confusion, and the share of its height
-    /// that comes by chance. 0.8, ours, decision 0012: true mirrors of the models reach .77, false ones
+    /// that comes by chance. 0.8, ours, decision 0013: true mirrors of the models reach .77, false ones
     /// start at .88.
     pub max_doubt: f64,
     /// Largest rms residual of a motion, in units of what its patch was grown to: exact copies with even
