@@ -139,6 +139,7 @@ fn detection(c: &mut Criterion, b: &Bunny) {
             &clusters[0],
             Class::Mirror,
             space,
+            None,
             patch,
         )
     });

@@ -158,18 +158,36 @@ impl Votes {
         })
     }
 
-    /// One vote per cell of side h/2 of the leading three axes, the first by index.
+    /// Where to climb from: of one vote per cell of side h/2 those that none of the others within h/2
+    /// exceeds in density. In fewer axes than the six of a motion a cell would hold several modes.
     fn starts(&self, h: f64) -> Vec<usize> {
         let mut cells = BTreeMap::new();
         let origin = self.axes * self.phi.iter().sum::<Phi>() / self.phi.len().max(1) as f64;
         for (i, x) in self.phi.iter().enumerate() {
             let y = self.axes * x - origin;
-            let cell: [i64; 3] = std::array::from_fn(|k| (y[k] / (0.5 * h)).floor() as i64);
+            let cell: [i64; LEADING] = std::array::from_fn(|k| (y[k] / (0.5 * h)).floor() as i64);
             if self.weights[i] > 0.0 {
                 cells.entry(cell).or_insert(i);
             }
         }
-        cells.into_values().collect()
+        let net: Vec<usize> = cells.into_values().collect();
+        let mut density = vec![f64::NEG_INFINITY; self.phi.len()];
+        let at: Vec<f64> = net
+            .par_iter()
+            .map(|&i| self.density(&self.phi[i], h))
+            .collect();
+        for (&i, d) in net.iter().zip(at) {
+            density[i] = d;
+        }
+        let highest = |&i: &usize| {
+            let near = self.within(&self.phi[i], 0.5 * h);
+            let higher = |&(k, _): &(u32, f64)| {
+                let k = k as usize;
+                density[k].total_cmp(&density[i]).then(i.cmp(&k)).is_gt()
+            };
+            !near.iter().any(higher)
+        };
+        net.into_par_iter().filter(highest).collect()
     }
 
     /// Votes within `h` of `x` with their squared distances, by index.

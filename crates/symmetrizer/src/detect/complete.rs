@@ -15,6 +15,8 @@ const MOST: usize = 240;
 const MOST_FOUND: usize = 130;
 /// Two patches meet when this share of the smaller one lies in both.
 const MEETING: f64 = 0.3;
+/// A product that holds for this share of its smaller factor's ground holds for most of it.
+const KEPT: f64 = 0.7;
 /// An improper motion is tried as a mirror when one moves the surface to within this of it, rms fraction
 /// of L.
 const NEARLY_MIRROR: f64 = 0.04;
@@ -40,6 +42,9 @@ pub fn complete(
     while next < symmetries.len() && symmetries.len() < MOST_FOUND && asked.len() < MOST {
         ctx.progress(asked.len() as f64 / MOST as f64)?;
         for other in 0..=next {
+            if !(symmetries[next].is_evident || symmetries[other].is_evident) {
+                continue;
+            }
             for (t, seeds) in products(surroundings, &index, &symmetries[next], &symmetries[other])
             {
                 let near = 0.5 * surroundings.params.cluster.bandwidth;
@@ -51,6 +56,7 @@ pub fn complete(
                 asked.push(t);
                 let height = symmetries[next].height.min(symmetries[other].height);
                 if let Some(s) = verified(surroundings, &t, seeds, height)
+                    && tells(&s, [&symmetries[next], &symmetries[other]])
                     && !symmetries
                         .iter()
                         .any(|k| is_same(k, &s, surroundings.space, near))
@@ -63,6 +69,14 @@ pub fn complete(
         next += 1;
     }
     Ok(())
+}
+
+/// Whether a product says more than its factors do: it holds for most of their ground, or carries its
+/// patch to another place. What holds for a piece of theirs and lies on itself, as parts of an ear do
+/// turned about it, says nothing.
+fn tells(product: &Symmetry, factors: [&Symmetry; 2]) -> bool {
+    let [a, b] = factors.map(|f| f.area_fraction);
+    product.area_fraction >= KEPT * a.min(b) || product.leaves_its_place()
 }
 
 fn same(surroundings: &Surroundings<'_>, a: &Isometry, b: &Isometry, near: f64) -> bool {
@@ -100,16 +114,22 @@ fn verified(
     if !params.wanted.classes().contains(&class) {
         return None;
     }
+    // A product of motions holds where its factors do; a mirror's other side is no seed.
+    let within = (class != Class::Mirror).then(|| ground.samples.around(&seeds, RINGS));
     let candidate = Candidate {
         t,
         class,
         height,
         seeds,
+        within,
         near: true,
     };
     let s = verify(ground, describer, &candidate, &params.patch).ok()?;
     surroundings.more_than_sliding(s).ok()
 }
+
+/// How many neighbours further than its factors a product may reach.
+const RINGS: u32 = 3;
 
 /// Motions a symmetry stands for: itself and its inverse, with their pairs.
 fn directions(
@@ -240,11 +260,15 @@ fn mirrors_of_drifting(
     let high = drifting
         .iter()
         .filter(|d| d.1 >= params.patch.min_height * highest);
+    let mut asked: Vec<Isometry> = Vec::new();
     for (t, height) in high.filter(|d| d.0.is_improper()) {
         let mirror = Isometry::mirror(&t.nearest_mirror(&Point::origin()));
-        if space.distance(t, &mirror) > NEARLY_MIRROR {
+        let again = |k: &Isometry| space.distance(k, &mirror) < 0.5 * near;
+        let found = symmetries.iter().any(|k| again(&k.q_from_p));
+        if space.distance(t, &mirror) > NEARLY_MIRROR || found || asked.iter().any(again) {
             continue;
         }
+        asked.push(mirror);
         let well = params.patch.copy_tolerance;
         let touched = touch(ground, &mirror, well, params.patch.min_cos);
         let seeds = touched.into_iter().flatten().map(|p| p.sample).collect();

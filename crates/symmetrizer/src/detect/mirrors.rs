@@ -108,6 +108,7 @@ fn pass(
             cluster,
             Class::Mirror,
             space,
+            None,
             &params.patch,
         )
         .and_then(|s| surroundings.more_than_sliding(s))

@@ -1,6 +1,7 @@
 //! Detection: samples, pairs, clusters and patches in a row, a cloud of votes for each class
 //! (section 2).
 
+mod again;
 mod arrange;
 mod complete;
 pub mod groups;
@@ -168,6 +169,9 @@ pub fn detect(
         clouds.push(cloud);
     }
     if clouds.iter().any(|c| c.class != Class::Mirror) {
+        ctx.stage("again", |ctx| {
+            again::again(&surroundings, &probes, &mut symmetries, ctx)
+        })?;
         ctx.stage("complete", |ctx| {
             complete::complete(&surroundings, &mut symmetries, &drifting, ctx)
         })?;

@@ -40,16 +40,25 @@ pub fn search(
 ) -> Result<Found> {
     match cloud.class {
         Class::Mirror => mirrors(surroundings, clusters, cloud, ctx),
-        _ => motions(surroundings, &clusters, cloud, known, ctx),
+        _ => motions(surroundings, &clusters, cloud, known, None, ctx),
     }
 }
 
+/// A second round of looking.
+pub struct Again<'a> {
+    /// Modes grown at the most.
+    pub modes: usize,
+    /// The samples of parts that are known to come again.
+    pub ground: &'a [bool],
+}
+
 /// Grows all modes of motions, each for itself, and keeps the best of those that are one symmetry.
-fn motions(
+pub fn motions(
     surroundings: &Surroundings<'_>,
     clusters: &[Cluster],
     cloud: &Cloud,
     known: &[Symmetry],
+    again: Option<&Again<'_>>,
     ctx: &mut Context<'_>,
 ) -> Result<Found> {
     let Surroundings {
@@ -61,7 +70,7 @@ fn motions(
     } = surroundings;
     let class = cloud.class;
     let worth = clusters.iter().filter(|c| c.votes.len() >= MIN_VOTES);
-    let modes: Vec<&Cluster> = worth.take(MOTIONS).collect();
+    let modes: Vec<&Cluster> = worth.take(again.map_or(MOTIONS, |a| a.modes)).collect();
     let grown: Vec<_> = modes
         .par_iter()
         .map(|c| {
@@ -72,6 +81,7 @@ fn motions(
                 c,
                 class,
                 space,
+                again.map(|a| a.ground),
                 &params.patch,
             )
         })

@@ -18,6 +18,8 @@ use crate::transform::{Class, Isometry, TransformSpace};
 const CANDIDATES: usize = 3;
 /// Turns at which one pair may vote, the best first: more is a place without direction.
 const TURNS: usize = 2;
+/// How many times as many partners a probe has that is looked at again.
+const GUIDED: usize = 4;
 /// A vote's own motion moves the shape by more than this, rms fraction of L: less is the
 /// surface lying on itself.
 const MIN_MOTION: f64 = 0.1;
@@ -53,6 +55,41 @@ pub fn rigid_pairs(
         .collect();
     ctx.progress(1.0)?;
     Ok(votes.into_iter().flatten().collect())
+}
+
+/// Votes of the probes in `asking` alone, each with more partners: a second look at places that are known
+/// to come again.
+pub fn guided_pairs(
+    probes: &[Probe],
+    asking: &[u32],
+    class: Class,
+    space: &TransformSpace,
+    params: &PairParams,
+) -> Vec<Pair> {
+    let params = PairParams {
+        partners: GUIDED * params.partners,
+        ..params.clone()
+    };
+    let identity = Isometry::identity();
+    let votes: Vec<Vec<Pair>> = asking
+        .par_iter()
+        .map(|&p| {
+            let from = &probes[p as usize];
+            let likes = alike(probes, &from.sample, &params);
+            let found = partners(probes, p, &likes, class, &params);
+            let weight = 1.0 / likes.len().max(1) as f64;
+            let votes = found.into_iter().map(|(q, t)| Pair {
+                p: from.place,
+                q: probes[q as usize].place,
+                q_from_p: t,
+                weight,
+            });
+            votes
+                .filter(|v| space.distance(&v.q_from_p, &identity) > MIN_MOTION)
+                .collect()
+        })
+        .collect();
+    votes.into_iter().flatten().collect()
 }
 
 /// The probes whose relief is like that of `s` by size of their harmonics, the most alike first.

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use crate::cluster::Cluster;
 use crate::geom::{Point, PointIndex};
 use crate::pair::Pair;
-use crate::patch::judge::{Grown, judge};
+use crate::patch::judge::{Grown, judge, too_small};
 use crate::patch::refine::{Contact, refine, weigh};
 use crate::patch::symmetry::{PatchPair, Refusal, Symmetry};
 use crate::sample::Samples;
@@ -105,16 +105,64 @@ pub struct Ground<'a> {
     pub samples: &'a Samples,
 }
 
+/// A growing round.
+#[derive(Debug, Clone, Copy)]
+struct Round {
+    /// Tolerance, in units of the class's.
+    tolerance: f64,
+    /// How many neighbours away from the seeds it grows at the most.
+    rings: u32,
+}
+
+impl Round {
+    const fn far(tolerance: f64) -> Self {
+        Self {
+            tolerance,
+            rings: u32::MAX,
+        }
+    }
+
+    const fn near(tolerance: f64) -> Self {
+        Self {
+            tolerance,
+            rings: 1,
+        }
+    }
+}
+
 /// Tolerances of the growing rounds, in units of the class's tolerance: wide first, while the
 /// cluster's isometry is still rough.
-const WIDE: [f64; 6] = [2.5, 2.0, 1.5, 1.0, 1.0, 1.0];
+const WIDE: [Round; 6] = [
+    Round::far(2.5),
+    Round::far(2.0),
+    Round::far(1.5),
+    Round::far(1.0),
+    Round::far(1.0),
+    Round::far(1.0),
+];
 /// For mirrors a second time, as if only what holds well were there: a part that moves as one piece is
 /// not drawn towards its neighbours.
-const NARROW: [f64; 4] = [1.2, 0.8, 0.4, 0.4];
+const NARROW: [Round; 4] = [
+    Round::far(1.2),
+    Round::far(0.8),
+    Round::far(0.4),
+    Round::far(0.4),
+];
 /// As a rigid motion has more freedom, its votes are rougher.
-const MOTION: [f64; 6] = [5.0, 3.0, 2.0, 1.5, 1.0, 1.0];
+/// The first are fitted to the places that voted and what is next to them alone: plain ground around
+/// an element, where most motions nearly hold, would draw the fit to itself.
+const MOTION: [Round; 6] = [
+    Round::near(5.0),
+    Round::near(3.0),
+    Round::near(2.0),
+    Round::far(1.5),
+    Round::far(1.0),
+    Round::far(1.0),
+];
 /// Residual up to which a place speaks for one of two mirrors, in units of the tolerance.
 const WELL: f64 = 0.4;
+/// Share of the least area that a candidate must reach while it settles.
+const HOPEFUL: f64 = 0.8;
 /// Rounds of settling at the most.
 const SETTLING: usize = 12;
 /// Settled: contacts move by less than this from round to round, fraction of L.
@@ -122,7 +170,8 @@ const SETTLED: f64 = 2e-5;
 
 /// Grows the patch of `cluster`: from the places that voted for it, over neighbouring samples,
 /// as long as their images lie on the surface; the isometry is refitted as the patch grows, in the
-/// end to the part of the patch for which it holds best.
+/// end to the part of the patch for which it holds best. Of `known` ground, where there is some, it is
+/// known that it comes again: the patch then is a part of it, and needs less evidence.
 ///
 /// # Errors
 /// [`Refusal`] where no symmetry worth the name comes out, with the reason.
@@ -133,6 +182,7 @@ pub fn grow_patch(
     cluster: &Cluster,
     class: Class,
     space: &TransformSpace,
+    known: Option<&[bool]>,
     params: &PatchParams,
 ) -> Result<Symmetry, Box<Refusal>> {
     let t = start(ground.samples, pairs, cluster, class, space);
@@ -145,7 +195,8 @@ pub fn grow_patch(
         class,
         height: cluster.height,
         seeds: sorted(seeds.collect()),
-        near: false,
+        within: known.map(<[bool]>::to_vec),
+        near: known.is_some(),
     };
     verify(ground, describer, &candidate, params)
 }
@@ -167,7 +218,10 @@ pub struct Candidate {
     pub height: f64,
     /// Samples to grow from, increasing.
     pub seeds: Vec<u32>,
-    /// Whether the isometry is near already: then nothing further away is drawn in.
+    /// The samples it may grow over; all where there is none.
+    pub within: Option<Vec<bool>>,
+    /// Whether it is known that there is something: a mirror then draws in nothing further away, a motion
+    /// needs less evidence of its own.
     pub near: bool,
 }
 
@@ -193,7 +247,6 @@ pub fn verify(
             }),
         })
     };
-    let nowhere = || "its votes do not hold on the surface".to_owned();
     let tolerance = params.tolerance_of(*class);
     let mirror = *class == Class::Mirror;
     let settled = if mirror && candidate.near {
@@ -205,14 +258,12 @@ pub fn verify(
     } else {
         settle(ground, candidate, &MOTION, params)
     };
-    let Some(Settled { t, spread }) = settled else {
-        return Err(refuse(candidate.t, nowhere()));
-    };
+    let Settled { t, spread } = settled.map_err(|reason| refuse(candidate.t, reason))?;
     // A patch ends where the isometry no longer holds as it does where it holds best.
     let reached = (params.end * spread).clamp(0.25 * tolerance, tolerance);
-    let grown = reach(ground, &t, reached, params.min_cos, seeds);
+    let grown = reach(ground, &t, reached, params.min_cos, candidate, u32::MAX);
     if grown.is_empty() {
-        return Err(refuse(t, nowhere()));
+        return Err(refuse(t, NOWHERE.into()));
     }
     let grown = Grown {
         t,
@@ -232,32 +283,42 @@ struct Settled {
     spread: f64,
 }
 
-/// Refits a candidate's isometry while its patch grows in `rounds`, then to where it holds best. `None`
-/// where it holds nowhere.
+/// Why a candidate that holds nowhere is refused.
+const NOWHERE: &str = "its votes do not hold on the surface";
+
+/// Refits a candidate's isometry while its patch grows in `rounds`, then to where it holds best.
+///
+/// # Errors
+/// The reason why nothing can come of it.
 fn settle(
     ground: &Ground<'_>,
     candidate: &Candidate,
-    rounds: &[f64],
+    rounds: &[Round],
     params: &PatchParams,
-) -> Option<Settled> {
+) -> Result<Settled, String> {
     let Candidate { class, seeds, .. } = candidate;
     let tolerance = params.tolerance_of(*class);
     let mut t = candidate.t;
     for round in rounds {
-        let grown = reach(ground, &t, round * tolerance, params.min_cos, seeds);
+        let bound = round.tolerance * tolerance;
+        let grown = reach(ground, &t, bound, params.min_cos, candidate, round.rings);
+        if round.tolerance <= 1.0 {
+            hopeful(ground, &grown, params.least_area(*class))?;
+        }
         let mut contacts = contacts(ground, &grown);
         if *class != Class::Mirror && !grown.is_empty() {
             weigh(&t, &mut contacts, scale(&grown, seeds, 0.5));
         }
         t = refine(&t, *class, &contacts);
     }
-    let last = rounds.last().copied().unwrap_or(1.0) * tolerance;
+    let last = rounds.last().map_or(1.0, |r| r.tolerance) * tolerance;
     let mut spread = 0.0;
     for _ in 0..SETTLING {
-        let grown = reach(ground, &t, last, params.min_cos, seeds);
+        let grown = reach(ground, &t, last, params.min_cos, candidate, u32::MAX);
         if grown.is_empty() {
-            return None;
+            return Err(NOWHERE.into());
         }
+        hopeful(ground, &grown, params.least_area(*class))?;
         spread = scale(&grown, seeds, 0.25);
         let mut contacts = contacts(ground, &grown);
         weigh(&t, &mut contacts, spread);
@@ -271,18 +332,28 @@ fn settle(
             break;
         }
     }
-    Some(Settled { t, spread })
+    Ok(Settled { t, spread })
+}
+
+/// Refuses what has not come near the area of a patch: most candidates have not, and to settle them is
+/// most of the work.
+fn hopeful(ground: &Ground<'_>, grown: &[PatchPair], least: f64) -> Result<(), String> {
+    let at_most = 2.0 * grown.len() as f64 / ground.samples.list.len() as f64;
+    if at_most < HOPEFUL * least {
+        return Err(too_small(at_most));
+    }
+    Ok(())
 }
 
 /// Of two the one that holds well for more of the surface.
 fn best_supported(
     ground: &Ground<'_>,
-    wide: Option<Settled>,
-    narrow: Option<Settled>,
+    wide: Result<Settled, String>,
+    narrow: Result<Settled, String>,
     params: &PatchParams,
-) -> Option<Settled> {
+) -> Result<Settled, String> {
     let well = WELL * params.tolerance;
-    let support = |s: &Option<Settled>| {
+    let support = |s: &Result<Settled, String>| {
         s.as_ref().map_or(0.0, |s| {
             let touched = touch(ground, &s.t, well, params.min_cos);
             let share = |p: PatchPair| 1.0 - (p.residual / well).powi(2);
@@ -366,23 +437,29 @@ fn touch_one(
     })
 }
 
-/// The samples that can be reached from a seed over neighbours whose images touch the surface, by
-/// sample.
+/// The samples that can be reached from a seed over at most `rings` neighbours whose images touch the
+/// surface, by sample.
 fn reach(
     ground: &Ground<'_>,
     t: &Isometry,
     tolerance: f64,
     min_cos: f64,
-    seeds: &[u32],
+    candidate: &Candidate,
+    rings: u32,
 ) -> Vec<PatchPair> {
     let samples = ground.samples;
-    let mut seen = vec![false; samples.list.len()];
-    let mut front: Vec<u32> = seeds.to_vec();
-    for &s in seeds {
+    let mut seen = match &candidate.within {
+        Some(within) => within.iter().map(|inside| !inside).collect(),
+        None => vec![false; samples.list.len()],
+    };
+    let mut front: Vec<u32> = candidate.seeds.clone();
+    for &s in &candidate.seeds {
         seen[s as usize] = true;
     }
     let mut grown = Vec::new();
-    while !front.is_empty() {
+    let mut ring = 0;
+    while !front.is_empty() && ring <= rings {
+        ring += 1;
         let touched: Vec<PatchPair> = front
             .par_iter()
             .with_min_len(64)

@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 
-use crate::geom::{Point, PointIndex, median};
+use crate::geom::{Point, PointIndex, Vector, median};
 use crate::patch::grow::{Ground, PatchParams, contacts, image};
 use crate::patch::likeness::unlikeness;
-use crate::patch::refine::firmness;
+use crate::patch::refine::{Contact, firmness};
 use crate::patch::symmetry::{PatchPair, Symmetry};
 use crate::sample::Sample;
 use crate::sample::samples::Describer;
@@ -27,8 +27,11 @@ pub struct Grown {
     pub near: bool,
 }
 
-/// What follows from other symmetries needs less evidence of its own by this factor.
+/// A motion that follows from other symmetries needs less evidence of its own by this factor,
 const DERIVED: f64 = 1.5;
+/// where its patch holds it at least this firmly, times its share of the surface: copies of solid
+/// elements do, pieces of a wall or of an ear that would slide by a little do not.
+const FIRM: f64 = 0.005;
 
 /// The symmetry of a grown patch, or the reason why it is none.
 pub fn judge(
@@ -38,36 +41,23 @@ pub fn judge(
     params: &PatchParams,
 ) -> Result<Symmetry, String> {
     let Grown { t, class, .. } = grown;
+    let squares = grown.pairs.iter().map(|p| p.residual.powi(2));
+    let rms = (squares.sum::<f64>() / grown.pairs.len() as f64).sqrt();
     let image = match class {
         Class::Mirror => grown.pairs.iter().map(|p| p.sample).collect(),
         Class::Proper | Class::Improper => image(ground, &grown.pairs),
     };
-    let area_fraction = covered(&grown.pairs, &image, ground.samples.list.len());
-    let slack = if grown.near { DERIVED } else { 1.0 };
-    large_enough(area_fraction, params.least_area(class) / slack)?;
-    well_determined(ground, &grown.pairs, class, params.min_firmness / slack)?;
-    let squares = grown.pairs.iter().map(|p| p.residual.powi(2));
-    let rms = (squares.sum::<f64>() / grown.pairs.len() as f64).sqrt();
-    let filled = rms / grown.reached;
-    let drifts =
-        || filled > slack * params.max_filled || rim(ground, &grown) > slack * params.max_rim;
-    if class != Class::Mirror && drifts() {
-        return Err(format!(
-            "its image passes by the surface rather than lies on it (rms {filled:.2} of the tolerance)"
-        ));
-    }
-    let (confusion, most) = match class {
-        Class::Mirror => (confusion(ground, &grown.pairs), params.max_confusion),
-        _ => (
-            unlikeness(ground, describer, &t, &grown.pairs),
-            slack * params.max_unlikeness,
-        ),
+    let verdict = Judged {
+        area_fraction: covered(&grown.pairs, &image, ground.samples.list.len()),
+        filled: rms / grown.reached,
     };
-    if confusion > most {
-        return Err(format!(
-            "partners look no more alike than many other places ({confusion:.2})"
-        ));
-    }
+    let Verdict {
+        confusion,
+        is_evident,
+    } = match class {
+        Class::Mirror => verdict.mirror(ground, &grown, params)?,
+        Class::Proper | Class::Improper => verdict.motion(ground, describer, &grown, params)?,
+    };
     let q_from_p = match class {
         Class::Mirror => Isometry::mirror(&t.nearest_mirror(&Point::origin()).canonical()),
         Class::Proper | Class::Improper => t,
@@ -77,13 +67,92 @@ pub fn judge(
         class,
         q_from_p,
         height: grown.height,
-        area_fraction,
+        area_fraction: verdict.area_fraction,
         rms,
         confusion,
-        doubt: filled + 2.0 * confusion,
+        doubt: verdict.filled + 2.0 * confusion,
+        is_evident,
         pairs: grown.pairs,
         image,
     })
+}
+
+/// What is judged of a patch.
+struct Judged {
+    /// Patch and image as a share of the surface.
+    area_fraction: f64,
+    /// The rms residual in units of what the patch was grown to.
+    filled: f64,
+}
+
+struct Verdict {
+    confusion: f64,
+    is_evident: bool,
+}
+
+impl Judged {
+    fn mirror(
+        &self,
+        ground: &Ground<'_>,
+        grown: &Grown,
+        params: &PatchParams,
+    ) -> Result<Verdict, String> {
+        if self.area_fraction < params.min_area {
+            return Err(too_small(self.area_fraction));
+        }
+        well_conditioned(ground, &grown.pairs)?;
+        let confusion = confusion(ground, &grown.pairs);
+        if confusion > params.max_confusion {
+            return Err(unlike(confusion));
+        }
+        Ok(Verdict {
+            confusion,
+            is_evident: true,
+        })
+    }
+
+    /// A motion must hold its patch, end where the shape does, and have partners that look alike; what
+    /// is known and firm is granted [`DERIVED`].
+    fn motion(
+        &self,
+        ground: &Ground<'_>,
+        describer: &Describer<'_>,
+        grown: &Grown,
+        params: &PatchParams,
+    ) -> Result<Verdict, String> {
+        let slack = if grown.near { DERIVED } else { 1.0 };
+        if self.area_fraction < params.min_copy / slack {
+            return Err(too_small(self.area_fraction));
+        }
+        let firmness = held(&contacts(ground, &grown.pairs), params.min_firmness)?;
+        let firm = firmness * self.area_fraction >= FIRM;
+        let slack = if firm { slack } else { 1.0 };
+        let drift = (self.filled / params.max_filled).max(rim(ground, grown) / params.max_rim);
+        if drift > slack {
+            return Err(format!(
+                "its image passes by the surface rather than lies on it (rms {:.2} of the tolerance)",
+                self.filled
+            ));
+        }
+        let unlikeness = unlikeness(ground, describer, &grown.t, &grown.pairs);
+        if unlikeness > slack * params.max_unlikeness {
+            return Err(unlike(unlikeness));
+        }
+        let is_evident = self.area_fraction >= params.min_copy
+            && drift <= 1.0
+            && unlikeness <= params.max_unlikeness;
+        if !(is_evident || firm) {
+            return Err(too_small(self.area_fraction));
+        }
+        Ok(Verdict {
+            confusion: unlikeness,
+            is_evident,
+        })
+    }
+}
+
+fn unlike(confusion: f64) -> String {
+    format!("partners look no more alike than many other places ({confusion:.2})")
 }
 
 /// The rms residual where a patch ends, in units of what it was grown to: a copy ends where the shape
@@ -119,56 +188,38 @@ fn covered(grown: &[PatchPair], image: &[u32], count: usize) -> f64 {
     member.iter().filter(|m| **m).count() as f64 / count.max(1) as f64
 }
 
-fn large_enough(area_fraction: f64, least: f64) -> Result<(), String> {
-    if area_fraction < least {
+/// Why a patch of this share of the surface is refused.
+pub fn too_small(area_fraction: f64) -> String {
+    let percent = 100.0 * area_fraction;
+    format!("holds for {percent:.1} % of the surface only")
+}
+
+/// The conditioning of a mirror's fit: eigenvalue gap and explained share.
+fn well_conditioned(ground: &Ground<'_>, grown: &[PatchPair]) -> Result<(), String> {
+    let fit = mirror_of(ground, grown).ok_or("its pairs leave the mirror undetermined")?;
+    if !fit.is_well_conditioned() {
         return Err(format!(
-            "holds for {:.1} % of the surface only",
-            100.0 * area_fraction
+            "badly conditioned: explains {:.2} of its pairs, eigenvalue gap {:.2}",
+            fit.explained, fit.gap
         ));
     }
     Ok(())
 }
 
-/// The conditioning of the fit: eigenvalue gap and explained share of a mirror, firmness of a motion,
-/// and that a motion does move its patch.
-fn well_determined(
-    ground: &Ground<'_>,
-    grown: &[PatchPair],
-    class: Class,
-    min_firmness: f64,
-) -> Result<(), String> {
-    if class == Class::Mirror {
-        let fit = mirror_of(ground, grown).ok_or("its pairs leave the mirror undetermined")?;
-        if !fit.is_well_conditioned() {
-            return Err(format!(
-                "badly conditioned: explains {:.2} of its pairs, eigenvalue gap {:.2}",
-                fit.explained, fit.gap
-            ));
-        }
-        return Ok(());
-    }
-    let contacts = contacts(ground, grown);
-    let firmness = firmness(&contacts);
+/// How firmly its contacts hold a motion, which does move them.
+fn held(contacts: &[Contact], min_firmness: f64) -> Result<f64, String> {
+    let firmness = firmness(contacts);
     if firmness < min_firmness {
         return Err(format!("slides along itself (firmness {firmness:.3})"));
     }
-    let moved = contacts
-        .iter()
-        .map(|c| (c.y - c.x).norm_squared())
-        .sum::<f64>();
-    let center = contacts
-        .iter()
-        .map(|c| c.x.coords)
-        .sum::<crate::geom::Vector>()
-        / grown.len() as f64;
-    let size = contacts
-        .iter()
-        .map(|c| (c.x.coords - center).norm_squared())
-        .sum::<f64>();
-    if moved < MIN_MOTION * MIN_MOTION * size {
+    let moved = contacts.iter().map(|c| (c.y - c.x).norm_squared());
+    let places = contacts.iter().map(|c| c.x.coords);
+    let center = places.clone().sum::<Vector>() / contacts.len() as f64;
+    let size: f64 = places.map(|x| (x - center).norm_squared()).sum();
+    if moved.sum::<f64>() < MIN_MOTION * MIN_MOTION * size {
         return Err("hardly moves its patch".into());
     }
-    Ok(())
+    Ok(firmness)
 }
 
 /// A motion moves its patch by at least this much, rms, in units of the patch's own rms radius.

@@ -38,6 +38,8 @@ pub struct Symmetry {
     /// The median, over the pairs, of the share of all samples that look more like a sample than its
     /// partner does: 0 where partners are unique, 0.5 where they are any two places.
     pub confusion: f64,
+    /// Whether it stands by itself, or only because it follows from others.
+    pub is_evident: bool,
     /// What speaks against it, 0 for nothing: how evenly the residuals fill the tolerance, how little
     /// alike partners look, for a mirror how high its cluster would be by chance.
     pub doubt: f64,
@@ -68,6 +70,12 @@ impl Symmetry {
     /// The mirror plane; of what is none, the plane of the nearest mirror.
     pub fn plane(&self) -> Plane {
         self.q_from_p.nearest_mirror(&Point::origin()).canonical()
+    }
+
+    /// Whether less than half of the image lies in the patch: the copy is another part of the surface.
+    pub fn leaves_its_place(&self) -> bool {
+        let patch = |i: &&u32| self.pairs.binary_search_by_key(*i, |p| p.sample).is_ok();
+        2 * self.image.iter().filter(patch).count() < self.image.len()
     }
 
     /// Which of `count` samples belong to the patch.

@@ -62,6 +62,20 @@ pub struct Samples {
     pub neighbors: Vec<Vec<u32>>,
 }
 
+impl Samples {
+    /// Which samples are among `seeds` or at most `rings` neighbours away from them.
+    pub fn around(&self, seeds: &[u32], rings: u32) -> Vec<bool> {
+        let mut member = vec![false; self.list.len()];
+        let mut front = seeds.to_vec();
+        for _ in 0..=rings {
+            front.iter().for_each(|&s| member[s as usize] = true);
+            let next = front.iter().flat_map(|&s| &self.neighbors[s as usize]);
+            front = next.copied().filter(|&n| !member[n as usize]).collect();
+        }
+        member
+    }
+}
+
 /// Makes samples of surface points.
 pub struct Describer<'a> {
     /// The surface.
