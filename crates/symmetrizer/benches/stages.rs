@@ -24,7 +24,7 @@ use symmetrizer::optimize::moving::{Moving, guided_couples};
 use symmetrizer::optimize::params::OptimizeParams;
 use symmetrizer::optimize::schedule::{Settings, optimize};
 use symmetrizer::pair::mirror_pairs;
-use symmetrizer::patch::grow::{Ground, grow_patch};
+use symmetrizer::patch::{Candidate, Ground, grow_patch};
 use symmetrizer::sample::sample;
 use symmetrizer::sample::samples::Describer;
 use symmetrizer::shape::working::Working;
@@ -132,16 +132,9 @@ fn detection(c: &mut Criterion, b: &Bunny) {
     stage(c, "patch of the highest cluster", || {
         let pairs = &b.found.clouds[0].pairs;
         let (space, patch) = (&b.found.space, &b.detect.patch);
-        grow_patch(
-            &ground,
-            &describer,
-            pairs,
-            &clusters[0],
-            Class::Mirror,
-            space,
-            None,
-            patch,
-        )
+        let (samples, mirror) = (&b.found.samples, Class::Mirror);
+        let candidate = Candidate::of_cluster(samples, pairs, &clusters[0], mirror, space);
+        grow_patch(&ground, &describer, &candidate, patch)
     });
     stage(c, "detect mirrors", || {
         detect(&b.surface, &b.detect, &mut new())

@@ -9,7 +9,7 @@ use symmetrizer::cluster::{ClusterParams, Votes};
 use symmetrizer::detect::{DetectParams, Detection, detect};
 use symmetrizer::optimize::glide::{Glided, glide};
 use symmetrizer::optimize::moving::Couple;
-use symmetrizer::patch::grow::Ground;
+use symmetrizer::patch::Ground;
 use symmetrizer::shape::working::Working;
 use symmetrizer::shape::{ClosestPoint, Surface};
 

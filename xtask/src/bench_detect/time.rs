@@ -4,6 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use serde_json::json;
+use symmetrizer::detect::Wanted;
 use symmetrizer::geom::Point;
 use symmetrizer::shape::io;
 use symmetrizer::{Context, Mesh, Params, Result, detect_in};
@@ -26,7 +27,7 @@ pub fn section(path: &Path, params: &Params) -> Result<Section> {
     let mut kinds = Table::new(["bunny", "triangles", "seconds"]);
     let mut by_kind = Vec::new();
     let mirrors = Params {
-        detect: params.detect.clone().mirrors_only(),
+        detect: Wanted::mirrors(),
         ..params.clone()
     };
     for (name, params) in [("mirrors", &mirrors), ("all kinds", params)] {

@@ -5,8 +5,8 @@ use crate::context::Context;
 use crate::detect::surroundings::{Surroundings, as_good, is_same};
 use crate::error::Result;
 use crate::geom::{Point, PointIndex};
-use crate::patch::grow::{Candidate, touch, verify};
-use crate::patch::{PatchPair, Symmetry};
+use crate::patch::ground::touch;
+use crate::patch::{Candidate, PatchPair, Symmetry, grow_patch};
 use crate::transform::{Class, Isometry};
 
 /// Products verified at the most.
@@ -124,7 +124,7 @@ fn verified(
         within,
         near: true,
     };
-    let s = verify(ground, describer, &candidate, &params.patch).ok()?;
+    let s = grow_patch(ground, describer, &candidate, &params.patch).ok()?;
     surroundings.more_than_sliding(s).ok()
 }
 

@@ -6,8 +6,8 @@ use crate::detect::Cloud;
 use crate::detect::search::{Found, MIN_VOTES};
 use crate::detect::surroundings::{Surroundings, as_good, is_same};
 use crate::error::Result;
-use crate::patch::grow::{Ground, touch};
-use crate::patch::{Refusal, Symmetry, grow_patch};
+use crate::patch::ground::touch;
+use crate::patch::{Candidate, Ground, Refusal, Symmetry, grow_patch};
 use crate::transform::space::Phi;
 use crate::transform::{Class, Isometry};
 
@@ -101,19 +101,12 @@ fn pass(
             break;
         }
         tried.push(cluster.mode);
-        let grown = grow_patch(
-            ground,
-            describer,
-            &cloud.pairs,
-            cluster,
-            Class::Mirror,
-            space,
-            None,
-            &params.patch,
-        )
-        .and_then(|s| surroundings.more_than_sliding(s))
-        .map(|s| surroundings.weigh_against_chance(s, cluster, cloud, ctx))
-        .and_then(|s| as_good(s, &found.symmetries, ground));
+        let candidate =
+            Candidate::of_cluster(ground.samples, &cloud.pairs, cluster, Class::Mirror, space);
+        let grown = grow_patch(ground, describer, &candidate, &params.patch)
+            .and_then(|s| surroundings.more_than_sliding(s))
+            .map(|s| surroundings.weigh_against_chance(s, cluster, cloud, ctx))
+            .and_then(|s| as_good(s, &found.symmetries, ground));
         match grown {
             Err(refusal) => found.refused.push(*refusal),
             Ok(symmetry) if symmetry.doubt > params.patch.max_doubt => {

@@ -9,7 +9,7 @@ use crate::detect::mirrors::mirrors;
 use crate::detect::surroundings::{SHUFFLES, Surroundings, as_good, is_same};
 use crate::error::Result;
 use crate::pair::shuffled_motions;
-use crate::patch::{Refusal, Symmetry, grow_patch};
+use crate::patch::{Candidate, Refusal, Symmetry, grow_patch};
 use crate::transform::{Class, Isometry};
 
 /// What came of a cloud's modes.
@@ -74,16 +74,12 @@ pub fn motions(
     let grown: Vec<_> = modes
         .par_iter()
         .map(|c| {
-            grow_patch(
-                ground,
-                describer,
-                &cloud.pairs,
-                c,
-                class,
-                space,
-                again.map(|a| a.ground),
-                &params.patch,
-            )
+            let candidate = Candidate::of_cluster(ground.samples, &cloud.pairs, c, class, space);
+            let candidate = match again {
+                Some(round) => candidate.known(round.ground),
+                None => candidate,
+            };
+            grow_patch(ground, describer, &candidate, &params.patch)
         })
         .collect();
     ctx.progress(1.0)?;

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::geom::Point;
 use crate::optimize::moving::{Couple, fit_mirror};
-use crate::patch::grow::Ground;
+use crate::patch::Ground;
 use crate::shape::SurfacePoint;
 use crate::transform::{Isometry, Plane, TransformSpace, displacements};
 

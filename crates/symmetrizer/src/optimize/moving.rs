@@ -4,7 +4,7 @@ use crate::context::Context;
 use crate::deform::{Deformed, Deformer, Pull};
 use crate::error::Result;
 use crate::geom::{Point, Vector};
-use crate::patch::grow::{Ground, touch};
+use crate::patch::ground::{Ground, touch};
 use crate::sample::Samples;
 use crate::shape::{ClosestPoint, Surface, SurfacePoint};
 use crate::transform::{

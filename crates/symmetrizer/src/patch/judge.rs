@@ -3,8 +3,9 @@
 use rayon::prelude::*;
 
 use crate::geom::{Point, PointIndex, Vector, median};
-use crate::patch::grow::{Ground, PatchParams, contacts, image};
+use crate::patch::ground::{Ground, contacts, image};
 use crate::patch::likeness::unlikeness;
+use crate::patch::params::PatchParams;
 use crate::patch::refine::{Contact, firmness};
 use crate::patch::symmetry::{PatchPair, Symmetry};
 use crate::sample::Sample;

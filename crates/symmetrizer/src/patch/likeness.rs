@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::geom::median;
-use crate::patch::grow::Ground;
+use crate::patch::ground::Ground;
 use crate::patch::symmetry::PatchPair;
 use crate::sample::samples::Describer;
 use crate::transform::Isometry;

@@ -1,12 +1,17 @@
 //! From a cluster of votes to a symmetry: verification and region growing (section 2).
 
+pub mod ground;
 pub mod grow;
 pub mod ids;
 pub mod judge;
 pub mod likeness;
+pub mod params;
 pub mod refine;
+pub mod settle;
 pub mod symmetry;
 
-pub use grow::{PatchParams, grow_patch};
+pub use ground::Ground;
+pub use grow::{Candidate, grow_patch};
 pub use ids::carry_ids;
+pub use params::PatchParams;
 pub use symmetry::{PatchPair, Refusal, Symmetry};

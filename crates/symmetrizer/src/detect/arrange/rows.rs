@@ -1,0 +1,147 @@
+//! Rows and grids: motions that are powers of one or two steps.
+
+use crate::detect::arrange::{MIN_ORDER, TOLERANCE, is_closed};
+use crate::detect::groups::Group;
+use crate::detect::surroundings::Surroundings;
+use crate::geom::{Point, PointIndex, Vector};
+use crate::group::{Pattern, Within, patterns};
+use crate::patch::Symmetry;
+use crate::transform::Isometry;
+
+/// Rows and grids of the motions that are in no group.
+pub fn rows(
+    surroundings: &Surroundings<'_>,
+    symmetries: &[Symmetry],
+    used: &mut [bool],
+) -> Vec<Group> {
+    let samples = surroundings.ground.samples;
+    let count = samples.list.len();
+    let open: Vec<usize> = (0..symmetries.len())
+        .filter(|&k| !used[k] && !is_closed(&symmetries[k], count))
+        .collect();
+    let within = Within {
+        space: surroundings.space,
+        tolerance: TOLERANCE,
+    };
+    let generators: Vec<Isometry> = open.iter().map(|&k| symmetries[k].q_from_p).collect();
+    // A motion holds from a row's first copy on when it is known with a patch that has that copy.
+    let mut known = |t: &Isometry| {
+        let both = generators.iter().flat_map(|k| [*k, k.inverse()]);
+        both.map(|k| (within.space.distance(&k, t), k))
+            .filter(|(d, _)| *d < TOLERANCE)
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .map(|(_, k)| k)
+    };
+    let mut groups = Vec::new();
+    for pattern in patterns(&generators, within, &mut known) {
+        let (steps, elements, order) = powers(&pattern);
+        if order < MIN_ORDER {
+            continue;
+        }
+        let is_element = |t: &Isometry| {
+            let near = |g: &Isometry| within.space.distance(g, t) < TOLERANCE;
+            elements.iter().any(|g| near(g) || near(&g.inverse()))
+        };
+        let members: Vec<usize> = open
+            .iter()
+            .copied()
+            .filter(|&k| is_element(&symmetries[k].q_from_p))
+            .collect();
+        for &k in &members {
+            used[k] = true;
+        }
+        let first = first_copy(&members, symmetries, &steps[0], surroundings, count);
+        groups.push(Group {
+            name: pattern.to_string(),
+            order,
+            axis: None,
+            point: middle(&first, surroundings),
+            step: Some(steps[0]),
+            orbit: elements
+                .iter()
+                .map(|t| carried(&first, t, surroundings))
+                .collect(),
+            elements,
+            symmetries: members.iter().map(|&k| symmetries[k].id).collect(),
+        });
+    }
+    groups
+}
+
+/// The steps of a pattern, the motions from its first copy to each, and the number of copies.
+fn powers(pattern: &Pattern) -> (Vec<Isometry>, Vec<Isometry>, usize) {
+    let powers = |t: &Isometry, n: usize| {
+        let mut all = vec![Isometry::identity()];
+        for k in 1..n {
+            all.push(t.after(&all[k - 1]));
+        }
+        all
+    };
+    match pattern {
+        Pattern::Row(row) => (vec![row.step], powers(&row.step, row.count), row.count),
+        Pattern::Grid(grid) => {
+            let [a, b] = [0, 1].map(|i| powers(&grid.steps[i], grid.counts[i]));
+            let all = b.iter().flat_map(|y| a.iter().map(move |x| y.after(x)));
+            (
+                grid.steps.to_vec(),
+                all.collect(),
+                grid.counts[0] * grid.counts[1],
+            )
+        }
+    }
+}
+
+/// The samples of a row's first copy: those that the step carries on and nothing is carried to.
+fn first_copy(
+    members: &[usize],
+    symmetries: &[Symmetry],
+    step: &Isometry,
+    surroundings: &Surroundings<'_>,
+    count: usize,
+) -> Vec<u32> {
+    let space = surroundings.space;
+    let mut starts = vec![false; count];
+    let mut ends = vec![false; count];
+    for &k in members {
+        let s = &symmetries[k];
+        let forwards =
+            space.distance(&s.q_from_p, step) < space.distance(&s.q_from_p.inverse(), step);
+        let image = s.image.iter().copied();
+        let patch = s.pairs.iter().map(|p| p.sample);
+        let (from, to): (Vec<u32>, Vec<u32>) = if forwards {
+            (patch.collect(), image.collect())
+        } else {
+            (image.collect(), patch.collect())
+        };
+        from.iter().for_each(|&i| starts[i as usize] = true);
+        to.iter().for_each(|&i| ends[i as usize] = true);
+    }
+    (0..count as u32)
+        .filter(|&i| starts[i as usize] && !ends[i as usize])
+        .collect()
+}
+
+fn middle(samples: &[u32], surroundings: &Surroundings<'_>) -> Point {
+    let list = &surroundings.ground.samples.list;
+    let sum: Vector = samples
+        .iter()
+        .map(|&i| list[i as usize].position.coords)
+        .sum();
+    Point::from(sum / samples.len().max(1) as f64)
+}
+
+/// The samples where `t` carries those of `copy`.
+fn carried(copy: &[u32], t: &Isometry, surroundings: &Surroundings<'_>) -> Vec<u32> {
+    let samples = surroundings.ground.samples;
+    let places: Vec<[f64; 3]> = copy
+        .iter()
+        .map(|&i| t.apply(&samples.list[i as usize].position).coords.into())
+        .collect();
+    let index = PointIndex::new(&places);
+    let near = |i: &u32| {
+        let x = samples.list[*i as usize].position;
+        let hit = index.nearest(&x.coords.into());
+        hit.is_some_and(|(_, d2)| d2 < samples.spacing * samples.spacing)
+    };
+    (0..samples.list.len() as u32).filter(near).collect()
+}
