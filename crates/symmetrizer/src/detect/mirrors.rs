@@ -1,8 +1,9 @@
 //! The mirrors among the modes of their cloud.
 
-use crate::cluster::Cluster;
+use crate::cluster::{Cluster, ClusterParams};
 use crate::context::Context;
 use crate::detect::Cloud;
+use crate::detect::apart::apart;
 use crate::detect::search::{Found, MIN_VOTES};
 use crate::detect::surroundings::{Surroundings, as_good, is_same};
 use crate::error::Result;
@@ -13,6 +14,9 @@ use crate::transform::{Class, Isometry};
 
 /// Mirror modes grown at the most; later ones are far lower than any symmetry seen on the models.
 const MIRRORS: usize = 12;
+/// Kernel radius of the second pass, in units of that of the first: parts of a bend, whose mirrors are near
+/// each other, are one mode in the wider.
+const FINER: f64 = 0.7;
 /// A doubtful mirror may be one of several that support each other up to this doubt; ours.
 const MAX_SUPPORTED: f64 = 1.1;
 /// Mirrors that support each other hold for at least this share of the surface; ours.
@@ -44,7 +48,8 @@ pub fn mirrors(
         let t = found.symmetries[k].q_from_p;
         explain_near(cloud, surroundings, &t);
     }
-    let clusters = cloud.votes.clusters(&surroundings.params.cluster);
+    let bandwidth = FINER * surroundings.params.cluster.bandwidth;
+    let clusters = cloud.votes.clusters(&ClusterParams { bandwidth });
     pass(
         surroundings,
         clusters,
@@ -55,6 +60,7 @@ pub fn mirrors(
     )?;
     cloud.votes = explained;
     consistent(surroundings, &mut found);
+    apart(surroundings, &mut found.symmetries);
     Ok(found)
 }
 

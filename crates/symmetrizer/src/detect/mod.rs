@@ -2,6 +2,7 @@
 //! (section 2).
 
 mod again;
+mod apart;
 mod arrange;
 mod complete;
 pub mod groups;

@@ -17,6 +17,7 @@ const REACH: f64 = 2.5;
 pub struct FaceSamples {
     nearest: Vec<Option<u32>>,
     centroids: Vec<Point>,
+    areas: Vec<f64>,
 }
 
 impl FaceSamples {
@@ -27,6 +28,7 @@ impl FaceSamples {
             return Self {
                 nearest: Vec::new(),
                 centroids: Vec::new(),
+                areas: Vec::new(),
             };
         }
         Self::new(&found.working.surface, &found.detection.samples)
@@ -52,7 +54,11 @@ impl FaceSamples {
                     .min_by(|a, b| gap(a).total_cmp(&gap(b)))
             })
             .collect();
-        Self { nearest, centroids }
+        Self {
+            nearest,
+            centroids,
+            areas: surface.face_areas.clone(),
+        }
     }
 
     /// The working triangles that `symmetry` holds for: its patch and its image, of a mirror the sides
@@ -69,6 +75,16 @@ impl FaceSamples {
         let above = |f: &u32| plane.signed_distance(&self.centroids[*f as usize]) >= 0.0;
         let (image, patch) = self.faces(&patch).partition(above);
         [patch, image]
+    }
+
+    /// The share of the triangles' area that `parts` cover together.
+    pub fn area(&self, parts: &[(Vec<u32>, [u8; 3])]) -> f64 {
+        let mut covered = vec![false; self.areas.len()];
+        for &f in parts.iter().flat_map(|(faces, _)| faces) {
+            covered[f as usize] = true;
+        }
+        let own = self.areas.iter().zip(&covered).filter(|(_, c)| **c);
+        own.map(|(a, _)| a).sum::<f64>() / self.areas.iter().sum::<f64>().max(f64::MIN_POSITIVE)
     }
 
     /// The working triangles that some of the samples speak for, increasing.

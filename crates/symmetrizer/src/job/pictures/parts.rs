@@ -124,12 +124,15 @@ impl Show<'_> {
                 vec![(both.flatten().collect(), color)]
             }
         };
-        let area = members().map(|s| s.area_fraction).fold(0.0, f64::max);
         exhibit.caption = match group.orbit.len() {
             0 => format!("{}, order {}", group.name, group.order),
             _ => group.name.clone(),
         };
-        exhibit.note = format!("{} symmetries; {}", group.symmetries.len(), share(area));
+        exhibit.note = format!(
+            "{} symmetries; {}",
+            group.symmetries.len(),
+            share(self.faces.area(&exhibit.parts))
+        );
         exhibit
     }
 
