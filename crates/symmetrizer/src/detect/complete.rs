@@ -15,6 +15,10 @@ const MOST: usize = 240;
 const MOST_FOUND: usize = 130;
 /// Two patches meet when this share of the smaller one lies in both.
 const MEETING: f64 = 0.3;
+/// A product that does not stand by itself may hold worse than its better factor by this factor,
+const AS_WELL: f64 = 1.5;
+/// and by this much, fraction of L.
+const SLACK: f64 = 5e-4;
 /// A product that holds for this share of its smaller factor's ground holds for most of it.
 const KEPT: f64 = 0.7;
 /// An improper motion is tried as a mirror when one moves the surface to within this of it, rms fraction
@@ -73,9 +77,13 @@ pub fn complete(
 
 /// Whether a product says more than its factors do: it holds for most of their ground, or carries its
 /// patch to another place. What holds for a piece of theirs and lies on itself, as parts of an ear do
-/// turned about it, says nothing.
+/// turned about it, says nothing. What does not stand by itself must hold as well as they do.
 fn tells(product: &Symmetry, factors: [&Symmetry; 2]) -> bool {
     let [a, b] = factors.map(|f| f.area_fraction);
+    let [r, s] = factors.map(|f| f.rms);
+    if !product.is_evident && product.rms > AS_WELL * r.min(s) + SLACK {
+        return false;
+    }
     product.area_fraction >= KEPT * a.min(b) || product.leaves_its_place()
 }
 
