@@ -18,7 +18,7 @@ const MEETING: f64 = 0.3;
 /// A product that does not stand by itself may hold worse than its better factor by this factor,
 const AS_WELL: f64 = 1.5;
 /// and by this much, fraction of L.
-const SLACK: f64 = 5e-4;
+const SLACK: f64 = 1e-3;
 /// A product that holds for this share of its smaller factor's ground holds for most of it.
 const KEPT: f64 = 0.7;
 /// An improper motion is tried as a mirror when one moves the surface to within this of it, rms fraction

@@ -20,7 +20,7 @@ pub struct PatchParams {
     pub min_area: f64,
     /// Smallest share of the surface's area that a copy and its image have together. 0.03, ours.
     pub min_copy: f64,
-    /// Largest confusion of a mirror's pairs, see [`Symmetry::confusion`]. 0.18, ours.
+    /// Largest confusion of a mirror's pairs, see [`Symmetry::confusion`](crate::patch::Symmetry::confusion). 0.18, ours.
     pub max_confusion: f64,
     /// Largest doubt about a mirror: the rms residual in units of the tolerance (a surface that merely
     /// passes by fills the tolerance evenly: .58), twice the confusion, and the share of its height
