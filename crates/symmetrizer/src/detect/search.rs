@@ -27,6 +27,9 @@ pub struct Found {
 
 /// Modes of motions grown at the most.
 const MOTIONS: usize = 400;
+/// Least height of a motion, as a share of the highest symmetry's; ours: copies of an element have .009 of
+/// what the whole plate under them has.
+const FAINT: f64 = 0.005;
 /// Votes a mode must have left to be looked at.
 pub const MIN_VOTES: usize = 6;
 
@@ -108,6 +111,12 @@ pub fn motions(
     let mut accepted = known.to_vec();
     for s in good {
         if accepted.iter().any(|k| is_same(k, &s, space, near)) {
+            continue;
+        }
+        let highest = accepted.iter().map(|k| k.height).fold(0.0, f64::max);
+        if again.is_none() && s.height < FAINT * highest {
+            let reason = "hardly any votes speak for it".to_owned();
+            found.refused.push(*s.refuse(reason, ground.samples));
             continue;
         }
         let mode = space.embed(&s.q_from_p);
