@@ -116,7 +116,7 @@ fn detection(c: &mut Criterion, b: &Bunny) {
         )
     });
     stage(c, "pair", || {
-        mirror_pairs(&b.found.samples, &b.detect.pair, &mut new())
+        mirror_pairs(&b.found.samples, None, &b.detect.pair, &mut new())
     });
     stage(c, "cluster", || {
         Votes::new(&b.found.clouds[0].pairs, &b.found.space).clusters(&b.detect.cluster)

@@ -1,19 +1,18 @@
 //! The mirrors among the modes of their cloud.
 
-use crate::cluster::{Cluster, ClusterParams};
+use crate::cluster::{Cluster, ClusterParams, Votes};
 use crate::context::Context;
 use crate::detect::Cloud;
 use crate::detect::apart::apart;
-use crate::detect::search::{Found, MIN_VOTES};
+use crate::detect::pass::{Explain, Pass, explain_near};
+use crate::detect::search::Found;
 use crate::detect::surroundings::{Surroundings, as_good, is_same};
 use crate::error::Result;
+use crate::pair::mirror_pairs;
 use crate::patch::ground::touch;
-use crate::patch::{Candidate, Ground, Refusal, Symmetry, grow_patch};
-use crate::transform::space::Phi;
+use crate::patch::{Ground, Refusal, Symmetry};
 use crate::transform::{Class, Isometry};
 
-/// Mirror modes grown at the most; later ones are far lower than any symmetry seen on the models.
-const MIRRORS: usize = 12;
 /// Kernel radius of the second pass, in units of that of the first: parts of a bend, whose mirrors are near
 /// each other, are one mode in the wider.
 const FINER: f64 = 0.7;
@@ -22,8 +21,9 @@ const MAX_SUPPORTED: f64 = 1.1;
 /// Mirrors that support each other hold for at least this share of the surface; ours.
 const MIN_SUPPORTED: f64 = 0.5;
 
-/// Mirrors in two passes: first those of different ground, each taking the votes of its patch with it;
-/// then those that share their ground with one found already and hold there as well as it does.
+/// Mirrors in three passes: first those of different ground, each taking the votes of its patch with it;
+/// the same once more among the places that none holds for, paired anew; then those that share their
+/// ground with one found already and hold there as well as it does.
 pub fn mirrors(
     surroundings: &Surroundings<'_>,
     clusters: Vec<Cluster>,
@@ -32,115 +32,86 @@ pub fn mirrors(
 ) -> Result<Found> {
     let mut found = Found::default();
     let all = cloud.votes.clone();
-    pass(
-        surroundings,
-        clusters,
-        cloud,
-        &mut found,
-        Explain::Ground,
-        ctx,
-    )?;
+    let wide = Pass {
+        explain: Explain::Ground,
+        kernel: surroundings.params.cluster.clone(),
+        highest: 0.0,
+    };
+    wide.take(surroundings, clusters, cloud, &mut found, ctx)?;
     if found.symmetries.is_empty() && found.doubtful.is_empty() {
         return Ok(found);
     }
-    let explained = std::mem::replace(&mut cloud.votes, all);
-    for k in 0..found.symmetries.len() {
-        let t = found.symmetries[k].q_from_p;
-        explain_near(cloud, surroundings, &t);
+    if let Some(mut rest) = rest(surroundings, &found.symmetries, ctx)? {
+        let guided = Pass {
+            explain: Explain::Ground,
+            kernel: surroundings.params.cluster.clone(),
+            highest: found.highest(),
+        };
+        let clusters = rest.votes.clusters(&guided.kernel);
+        guided.take(surroundings, clusters, &mut rest, &mut found, ctx)?;
     }
+    let explained = std::mem::replace(&mut cloud.votes, all);
     let bandwidth = FINER * surroundings.params.cluster.bandwidth;
-    let clusters = cloud.votes.clusters(&ClusterParams { bandwidth });
-    pass(
-        surroundings,
-        clusters,
-        cloud,
-        &mut found,
-        Explain::Mode,
-        ctx,
-    )?;
+    let known: Vec<Isometry> = found.symmetries.iter().map(|s| s.q_from_p).collect();
+    let in_the_finer = |t| cloud.votes.density(&surroundings.space.embed(t), bandwidth);
+    let fine = Pass {
+        explain: Explain::Mode,
+        kernel: ClusterParams { bandwidth },
+        highest: known.iter().map(in_the_finer).fold(0.0, f64::max),
+    };
+    for t in &known {
+        explain_near(cloud, surroundings, t);
+    }
+    let clusters = cloud.votes.clusters(&fine.kernel);
+    fine.take(surroundings, clusters, cloud, &mut found, ctx)?;
     cloud.votes = explained;
     consistent(surroundings, &mut found);
     apart(surroundings, &mut found.symmetries);
     Ok(found)
 }
 
-/// Which votes a symmetry takes with it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Explain {
-    /// Those between places of its patch, whatever mirror they vote for.
-    Ground,
-    /// Those for about itself.
-    Mode,
-}
-
-/// Grows the modes of `cloud` one after the other, counting only votes that no symmetry found so far
-/// explains.
-fn pass(
+/// The votes among places that none of the mirrors found holds for, paired anew: each finds its partner
+/// among fewer.
+fn rest(
     surroundings: &Surroundings<'_>,
-    mut clusters: Vec<Cluster>,
-    cloud: &mut Cloud,
-    found: &mut Found,
-    explain: Explain,
+    mirrors: &[Symmetry],
     ctx: &mut Context<'_>,
-) -> Result<()> {
+) -> Result<Option<Cloud>> {
     let Surroundings {
         ground,
         space,
-        describer,
         params,
         ..
     } = surroundings;
-    let h = params.cluster.bandwidth;
-    let mut tried: Vec<Phi> = Vec::new();
-    for k in 0..MIRRORS {
-        ctx.progress(k as f64 / MIRRORS as f64)?;
-        let untried = |c: &&Cluster| tried.iter().all(|t| (t - c.mode).norm() > 0.5 * h);
-        let Some(cluster) = clusters.iter().find(untried) else {
-            break;
-        };
-        let highest = found
-            .symmetries
-            .iter()
-            .map(|s| s.height)
-            .fold(0.0, f64::max);
-        if cluster.votes.len() < MIN_VOTES || cluster.height < params.patch.min_height * highest {
-            break;
-        }
-        tried.push(cluster.mode);
-        let candidate =
-            Candidate::of_cluster(ground.samples, &cloud.pairs, cluster, Class::Mirror, space);
-        let grown = grow_patch(ground, describer, &candidate, &params.patch)
-            .and_then(|s| surroundings.more_than_sliding(s))
-            .map(|s| surroundings.weigh_against_chance(s, cluster, cloud, ctx))
-            .and_then(|s| as_good(s, &found.symmetries, ground));
-        match grown {
-            Err(refusal) => found.refused.push(*refusal),
-            Ok(symmetry) if symmetry.doubt > params.patch.max_doubt => {
-                found.put_aside(symmetry, ground)
-            }
-            Ok(symmetry) => {
-                let again = found
-                    .symmetries
-                    .iter()
-                    .any(|s| is_same(s, &symmetry, space, 0.5 * h));
-                match explain {
-                    Explain::Ground => explain_ground(cloud, surroundings, &symmetry.q_from_p),
-                    Explain::Mode => explain_near(cloud, surroundings, &symmetry.q_from_p),
-                }
-                // From all starts again: a mode that stood in the shadow of this one shows now.
-                clusters = cloud.votes.clusters(&params.cluster);
-                if !again {
-                    found.symmetries.push(symmetry);
-                }
-            }
+    let patch = &params.patch;
+    let mut left = vec![true; ground.samples.list.len()];
+    for s in mirrors {
+        let touched = touch(ground, &s.q_from_p, 0.5 * patch.tolerance, patch.min_cos);
+        for (l, t) in left.iter_mut().zip(touched) {
+            *l &= t.is_none();
         }
     }
-    Ok(())
+    let count = left.iter().filter(|l| **l).count();
+    if (count as f64) < patch.min_area * left.len() as f64 || mirrors.is_empty() {
+        return Ok(None);
+    }
+    let pairs = mirror_pairs(ground.samples, Some(&left), &params.pair, ctx)?;
+    let votes = Votes::new(&pairs, space);
+    Ok(Some(Cloud {
+        class: Class::Mirror,
+        pairs,
+        votes,
+    }))
 }
 
 impl Found {
+    /// The height of the highest symmetry.
+    fn highest(&self) -> f64 {
+        self.symmetries.iter().map(|s| s.height).fold(0.0, f64::max)
+    }
+
     /// Keeps a doubtful mirror for [`consistent`].
-    fn put_aside(&mut self, symmetry: Symmetry, ground: &Ground<'_>) {
+    pub fn put_aside(&mut self, symmetry: Symmetry, ground: &Ground<'_>) {
         let doubt = symmetry.doubt;
         let reason = format!(
             "doubtful ({doubt:.2}): partners look no more alike than many other places (confusion \
@@ -192,30 +163,4 @@ fn consistent(surroundings: &Surroundings<'_>, found: &mut Found) {
             found.symmetries.push(s);
         }
     }
-}
-
-/// A vote is explained when the symmetry holds well at both of its ends: what they look like is accounted
-/// for, whatever mirror they vote for. Ends that the mirror only just reaches, as on a round head
-/// turned a little on its body, keep their say.
-fn explain_ground(cloud: &mut Cloud, surroundings: &Surroundings<'_>, t: &Isometry) {
-    let patch = &surroundings.params.patch;
-    let touched = touch(surroundings.ground, t, 0.5 * patch.tolerance, patch.min_cos);
-    let pairs = &cloud.pairs;
-    cloud.votes.explain_away(|i| {
-        let (p, q) = (pairs[i].p as usize, pairs[i].q as usize);
-        touched[p].is_some() && touched[q].is_some()
-    });
-}
-
-/// Takes out the votes for about `t`.
-fn explain_near(cloud: &mut Cloud, surroundings: &Surroundings<'_>, t: &Isometry) {
-    let h = surroundings.params.cluster.bandwidth;
-    let mode = surroundings.space.embed(t);
-    let near: Vec<bool> = cloud
-        .votes
-        .points()
-        .iter()
-        .map(|x| (x - mode).norm() < h)
-        .collect();
-    cloud.votes.explain_away(|i| near[i]);
 }

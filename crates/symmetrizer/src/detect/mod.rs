@@ -7,6 +7,7 @@ mod arrange;
 mod complete;
 pub mod groups;
 mod mirrors;
+mod pass;
 mod search;
 mod surroundings;
 pub mod wanted;
@@ -150,7 +151,7 @@ pub fn detect(
     let mut drifting = Vec::new();
     for class in classes {
         let pairs = ctx.stage("pair", |ctx| match class {
-            Class::Mirror => mirror_pairs(&samples, &params.pair, ctx),
+            Class::Mirror => mirror_pairs(&samples, None, &params.pair, ctx),
             _ => rigid_pairs(&probes, class, &space, &params.pair, ctx),
         })?;
         let votes = Votes::new(&pairs, &space);

@@ -70,12 +70,13 @@ impl Surroundings<'_> {
     }
 
     /// Adds to a mirror's doubt how high its cluster would be by chance: the height that the same votes
-    /// have there when their second places are shuffled.
+    /// have there, in the same kernel of radius `h`, when their second places are shuffled.
     pub fn weigh_against_chance(
         &self,
         symmetry: Symmetry,
         cluster: &Cluster,
         cloud: &Cloud,
+        h: f64,
         ctx: &Context<'_>,
     ) -> Symmetry {
         let mut rng = ctx.rng("chance");
@@ -86,7 +87,6 @@ impl Surroundings<'_> {
             .filter(|(_, w)| **w > 0.0)
             .map(|(v, _)| *v)
             .collect();
-        let h = self.params.cluster.bandwidth;
         let chance: f64 = (0..SHUFFLES)
             .map(|_| {
                 let other =

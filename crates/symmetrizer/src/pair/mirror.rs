@@ -11,21 +11,25 @@ use crate::sample::{Sample, Samples};
 use crate::transform::{Isometry, Plane};
 
 /// The mirror votes of a sampled surface: pairs with like signatures whose normals the pair's own
-/// mirror exchanges, weighted by distinctiveness.
+/// mirror exchanges, weighted by distinctiveness; where only some samples are to be looked `among`,
+/// partners and distinctiveness are those among them.
 ///
 /// # Errors
 /// [`crate::Error::Cancelled`].
 pub fn mirror_pairs(
     samples: &Samples,
+    among: Option<&[bool]>,
     params: &PairParams,
     ctx: &mut Context<'_>,
 ) -> Result<Vec<Pair>> {
-    let rarity = distinctiveness(samples, params.tolerance);
-    ctx.progress(0.5)?;
     let list = &samples.list;
-    let per_sample: Vec<Vec<Pair>> = (0..list.len())
-        .into_par_iter()
-        .map(|p| partners(list, p, params, &rarity))
+    let chosen = |i: &usize| among.is_none_or(|a| a[*i]);
+    let chosen: Vec<usize> = (0..list.len()).filter(chosen).collect();
+    let rarity = distinctiveness(list, &chosen, params.tolerance);
+    ctx.progress(0.5)?;
+    let per_sample: Vec<Vec<Pair>> = chosen
+        .par_iter()
+        .map(|&p| partners(list, &chosen, p, params, &rarity))
         .collect();
     let mut pairs: Vec<Pair> = per_sample.into_iter().flatten().collect();
     // A pair chosen from both of its ends is one vote.
@@ -37,12 +41,12 @@ pub fn mirror_pairs(
 
 /// 1 / the number of samples with a like signature: the one weight that matters (without
 /// it the bunny's head is lost among its back's votes).
-fn distinctiveness(samples: &Samples, tolerance: f64) -> Vec<f64> {
-    let list = &samples.list;
+fn distinctiveness(list: &[Sample], chosen: &[usize], tolerance: f64) -> Vec<f64> {
     list.par_iter()
         .map(|s| {
-            let alike = list
+            let alike = chosen
                 .iter()
+                .map(|&t| &list[t])
                 .filter(|t| {
                     let d = s.signature.distance(&t.signature);
                     d.is_some_and(|d| d < tolerance)
@@ -54,11 +58,19 @@ fn distinctiveness(samples: &Samples, tolerance: f64) -> Vec<f64> {
 }
 
 /// The best partners of sample `p`, as pairs with the smaller index first.
-fn partners(list: &[Sample], p: usize, params: &PairParams, rarity: &[f64]) -> Vec<Pair> {
+fn partners(
+    list: &[Sample],
+    chosen: &[usize],
+    p: usize,
+    params: &PairParams,
+    rarity: &[f64],
+) -> Vec<Pair> {
     if list[p].signature.strength() < params.min_strength {
         return Vec::new();
     }
-    let mut found: Vec<(f64, usize, Plane)> = (0..list.len())
+    let mut found: Vec<(f64, usize, Plane)> = chosen
+        .iter()
+        .copied()
         .filter(|&q| q != p)
         .filter_map(|q| {
             let gap = list[p].signature.distance(&list[q].signature)?;

@@ -15,11 +15,11 @@ const ROUGH: f64 = 30.0 * std::f64::consts::PI / 180.0;
 /// Only a surface with triangles this small, fraction of L, can be noisy: a coarse one has large angles of
 /// its own, a cube nothing else.
 const FINE: f64 = 0.04;
-/// Fairing ends at this. Radians.
-const FAIR: f64 = 12.0 * std::f64::consts::PI / 180.0;
+/// Fairing ends at this: what noise is left makes partners look doubtful; further on shape goes with it. Radians.
+const FAIR: f64 = 7.0 * std::f64::consts::PI / 180.0;
 /// Pairs of steps between looks at the angles, and how many looks at the most.
 const STEPS: usize = 5;
-const LOOKS: usize = 8;
+const LOOKS: usize = 15;
 
 /// The surface without its noise, its triangles as they were; `None` where it is not rough.
 pub fn faired(surface: &Surface) -> Option<Surface> {
