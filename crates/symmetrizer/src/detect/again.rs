@@ -18,7 +18,7 @@ use crate::transform::Class;
 /// [`crate::Error::Cancelled`].
 pub fn again(
     surroundings: &Surroundings<'_>,
-    probes: &[Probe],
+    (probes, likes): (&[Probe], &[Vec<u32>]),
     symmetries: &mut Vec<Symmetry>,
     ctx: &mut Context<'_>,
 ) -> Result<()> {
@@ -44,7 +44,14 @@ pub fn again(
         if class == Class::Mirror {
             continue;
         }
-        let pairs = guided_pairs(probes, &asking, class, surroundings.space, &params.pair);
+        let pairs = guided_pairs(
+            probes,
+            likes,
+            &asking,
+            class,
+            surroundings.space,
+            &params.pair,
+        );
         let votes = Votes::new(&pairs, surroundings.space);
         let cloud = Cloud {
             class,

@@ -12,6 +12,8 @@ use crate::transform::{Class, Isometry};
 const CLEARLY: f64 = 0.7;
 /// Rounds at the most.
 const ROUNDS: usize = 20;
+/// At rest: no mirror moves by more in a round, rms fraction of L.
+const AT_REST: f64 = 1e-5;
 /// A mirror keeps at least this share of its places, else it stays as it was.
 const KEPT: f64 = 0.3;
 
@@ -24,7 +26,7 @@ pub fn apart(surroundings: &Surroundings<'_>, mirrors: &mut [Symmetry]) {
     for _ in 0..ROUNDS {
         let held: Vec<Vec<Option<PatchPair>>> =
             planes.iter().map(|t| on(surroundings, t)).collect();
-        let next = (0..planes.len())
+        let next: Vec<Isometry> = (0..planes.len())
             .map(|k| {
                 refitted(
                     surroundings,
@@ -34,7 +36,13 @@ pub fn apart(surroundings: &Surroundings<'_>, mirrors: &mut [Symmetry]) {
                 )
             })
             .collect();
+        let moved = planes.iter().zip(&next);
+        let moved = moved.map(|(s, t)| surroundings.space.distance(s, t));
+        let rests = moved.fold(0.0, f64::max) < AT_REST;
         planes = next;
+        if rests {
+            break;
+        }
     }
     for (mirror, t) in mirrors.iter_mut().zip(planes) {
         let t = Isometry::mirror(&t.nearest_mirror(&Point::origin()).canonical());

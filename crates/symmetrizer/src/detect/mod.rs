@@ -20,7 +20,7 @@ use surroundings::Surroundings;
 use crate::cluster::{ClusterParams, Votes};
 use crate::context::Context;
 use crate::error::Result;
-use crate::pair::{Pair, PairParams, mirror_pairs, rigid_pairs};
+use crate::pair::{Pair, PairParams, likes, mirror_pairs, rigid_pairs};
 use crate::patch::{Ground, PatchParams, Refusal, Symmetry};
 use crate::sample::samples::Describer;
 use crate::sample::{SampleParams, Samples, probes, sample};
@@ -138,6 +138,7 @@ pub fn detect(
         let count = if rigid { params.sample.count } else { 0 };
         Ok(probes(&describer, &samples, count, &mut ctx.rng("probe")))
     })?;
+    let likes = ctx.stage("pair", |_| Ok(likes(&probes, &params.pair)))?;
     let surroundings = Surroundings {
         ground: &ground,
         space: &space,
@@ -152,7 +153,7 @@ pub fn detect(
     for class in classes {
         let pairs = ctx.stage("pair", |ctx| match class {
             Class::Mirror => mirror_pairs(&samples, None, &params.pair, ctx),
-            _ => rigid_pairs(&probes, class, &space, &params.pair, ctx),
+            _ => rigid_pairs(&probes, &likes, class, &space, &params.pair, ctx),
         })?;
         let votes = Votes::new(&pairs, &space);
         let mut cloud = Cloud {
@@ -171,7 +172,7 @@ pub fn detect(
     }
     if clouds.iter().any(|c| c.class != Class::Mirror) {
         ctx.stage("again", |ctx| {
-            again::again(&surroundings, &probes, &mut symmetries, ctx)
+            again::again(&surroundings, (&probes, &likes), &mut symmetries, ctx)
         })?;
         ctx.stage("complete", |ctx| {
             complete::complete(&surroundings, &mut symmetries, &drifting, ctx)

@@ -70,8 +70,8 @@ impl Pass {
                 Candidate::of_cluster(ground.samples, &cloud.pairs, cluster, Class::Mirror, space);
             let grown = grow_patch(ground, describer, &candidate, &params.patch)
                 .and_then(|s| surroundings.more_than_sliding(s))
-                .map(|s| surroundings.weigh_against_chance(s, cluster, cloud, h, ctx))
-                .and_then(|s| as_good(s, &found.symmetries, ground));
+                .and_then(|s| as_good(s, &found.symmetries, ground))
+                .map(|s| surroundings.weigh_against_chance(s, cluster, cloud, h, ctx));
             match grown {
                 Err(refusal) => found.refused.push(*refusal),
                 Ok(symmetry) if symmetry.doubt > params.patch.max_doubt => {

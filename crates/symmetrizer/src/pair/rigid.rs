@@ -23,19 +23,25 @@ const GUIDED: usize = 4;
 /// A vote's own motion moves the shape by more than this, rms fraction of L: less is the
 /// surface lying on itself.
 const MIN_MOTION: f64 = 0.1;
-/// The proper or improper votes of a surface's probes, each pair in both directions.
+/// For each probe those whose relief is like its own by size of the harmonics, the most alike first: a
+/// turn or a mirror image changes nothing of that.
+pub fn likes(probes: &[Probe], params: &PairParams) -> Vec<Vec<u32>> {
+    let alike = |s: &Probe| alike(probes, &s.sample, params);
+    probes.par_iter().map(alike).collect()
+}
+
+/// The proper or improper votes of a surface's probes among their `likes`, each pair in both directions.
+///
+/// # Errors
+/// [`crate::Error::Cancelled`].
 pub fn rigid_pairs(
     probes: &[Probe],
+    likes: &[Vec<u32>],
     class: Class,
     space: &TransformSpace,
     params: &PairParams,
     ctx: &mut Context<'_>,
 ) -> Result<Vec<Pair>> {
-    let likes: Vec<Vec<u32>> = probes
-        .par_iter()
-        .map(|s| alike(probes, &s.sample, params))
-        .collect();
-    ctx.progress(0.5)?;
     let rarity = |p: u32| 1.0 / likes[p as usize].len().max(1) as f64;
     let identity = Isometry::identity();
     let votes: Vec<Vec<Pair>> = (0..probes.len() as u32)
@@ -61,6 +67,7 @@ pub fn rigid_pairs(
 /// to come again.
 pub fn guided_pairs(
     probes: &[Probe],
+    likes: &[Vec<u32>],
     asking: &[u32],
     class: Class,
     space: &TransformSpace,
@@ -75,8 +82,8 @@ pub fn guided_pairs(
         .par_iter()
         .map(|&p| {
             let from = &probes[p as usize];
-            let likes = alike(probes, &from.sample, &params);
-            let found = partners(probes, p, &likes, class, &params);
+            let likes = &likes[p as usize];
+            let found = partners(probes, p, likes, class, &params);
             let weight = 1.0 / likes.len().max(1) as f64;
             let votes = found.into_iter().map(|(q, t)| Pair {
                 p: from.place,

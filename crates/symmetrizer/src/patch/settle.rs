@@ -98,7 +98,10 @@ pub fn settled(
     let within = |rounds: &[Round]| settle(ground, candidate, rounds, params);
     match candidate.class {
         Class::Mirror if candidate.near => within(&NARROW),
-        Class::Mirror => best_supported(ground, within(&WIDE), within(&NARROW), params),
+        Class::Mirror => {
+            let (wide, narrow) = rayon::join(|| within(&WIDE), || within(&NARROW));
+            best_supported(ground, wide, narrow, params)
+        }
         Class::Proper | Class::Improper => within(&MOTION),
     }
 }
