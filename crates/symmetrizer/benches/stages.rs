@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 use criterion::{BenchmarkId, Criterion};
 use symmetrizer::apply::measure::asymmetry;
 use symmetrizer::cluster::Votes;
-use symmetrizer::deform::primo::DeformParams;
+use symmetrizer::deform::DeformParams;
 use symmetrizer::deform::{Deformer, Primo};
 use symmetrizer::detect::{DetectParams, Detection, detect};
 use symmetrizer::optimize::moving::{Moving, guided_couples};

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
 use crate::cluster::ClusterParams;
-use crate::deform::primo::DeformParams;
+use crate::deform::DeformParams;
 use crate::detect::{DetectParams, Want, Wanted};
 use crate::error::{Error, Result};
 use crate::optimize::params::OptimizeParams;

@@ -1,16 +1,26 @@
 //! Deformation: points are pulled towards targets, the shape follows with as little change as
 //! possible (section 4.2). Nothing here has heard of symmetry.
 
+pub mod arap;
+mod bridges;
+mod laplacian;
+pub mod params;
+pub mod poisson;
 pub mod primo;
+pub mod relax;
 pub mod smooth;
 pub mod solver;
 
 use crate::context::Context;
-use crate::error::Result;
-use crate::geom::{Point, Vector};
+use crate::deform::solver::SolveError;
+use crate::error::{Error, Result};
+use crate::geom::{Matrix3, Point};
 use crate::shape::{Surface, SurfacePoint};
 
+pub use arap::Arap;
+pub use params::{DeformParams, Model};
 pub use primo::Primo;
+pub use relax::relax;
 
 /// A soft positional constraint at a point of the rest surface.
 #[derive(Debug, Clone, Copy)]
@@ -74,10 +84,55 @@ pub trait Deformer {
     fn rest(&self) -> &Surface;
 }
 
-/// A deformer's state: a rigid motion (rotation vector columns, translation) for each of its
-/// elements.
+/// A deformer's state, which only one of its own kind takes.
 #[derive(Debug, Clone)]
-pub struct State(pub(crate) Vec<primo::motion::Motion>);
+pub enum State {
+    /// A rigid motion for each prism.
+    Prisms(Vec<primo::motion::Motion>),
+    /// A position and a rotation for each vertex.
+    Vertices(Vec<Point>, Vec<Matrix3>),
+}
 
-/// Twist (omega, v) per element, as the solver returns it.
-pub(crate) type Twist = (Vector, Vector);
+/// The deformer that `params` name, over `rest`.
+///
+/// # Errors
+/// [`Error::Params`], [`Error::Numerical`].
+pub fn deformer(rest: &Surface, params: &DeformParams) -> Result<Box<dyn Deformer>> {
+    Ok(match params.model {
+        Model::Primo => Box::new(Primo::new(rest, params)?),
+        Model::Arap => Box::new(Arap::new(rest, params)?),
+    })
+}
+
+fn check_pulls(pulls: &[Pull], step: usize) -> Result<()> {
+    let bad = |p: &Pull| {
+        !p.target.iter().all(|c| c.is_finite()) || !p.weight.is_finite() || p.weight < 0.0
+    };
+    if pulls.iter().any(bad) {
+        return Err(failure(SolveError::Inaccurate, step));
+    }
+    Ok(())
+}
+
+fn check_stiffness(per_face: &[f64], rest: &Surface) -> Result<()> {
+    if per_face.len() != rest.triangles.len() {
+        return Err(Error::params("stiffness", "needs one value for each face"));
+    }
+    if !per_face.iter().all(|k| k.is_finite() && *k > 0.0) {
+        return Err(Error::params("stiffness", "must be positive and finite"));
+    }
+    Ok(())
+}
+
+fn failure(e: SolveError, step: usize) -> Error {
+    let what = match e {
+        SolveError::NotPositiveDefinite => "the deformation system is singular",
+        SolveError::Inaccurate => "the deformation targets are not finite or cannot be met",
+        SolveError::Setup => "the deformation system could not be set up",
+    };
+    Error::Numerical {
+        stage: "deform",
+        step,
+        what: what.into(),
+    }
+}

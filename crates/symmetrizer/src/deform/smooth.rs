@@ -3,8 +3,7 @@
 //! min sum_v A_v c_v |u_v - t_v|^2 + lambda^2 sum_edges k_e |u_i - u_j|^2 with cotangent weights k_e,
 //! clamped to stay positive on bad triangles.
 
-use std::collections::BTreeMap;
-
+use crate::deform::laplacian::edge_weights;
 use crate::deform::solver::{Cholesky, SolveError};
 use crate::geom::Vector;
 use crate::shape::Surface;
@@ -30,11 +29,10 @@ impl SmoothField {
     /// [`SolveError::Setup`].
     pub fn new(surface: &Surface) -> Result<Self, SolveError> {
         let n = surface.positions.len();
-        let weights = cotangents(surface);
+        let weights = edge_weights(surface, None);
         let mut columns: Vec<Vec<(usize, f64)>> = vec![Vec::new(); n];
         let mut sums = vec![0.0; n];
-        for (&(u, v), &cot) in &weights {
-            let k = cot.clamp(COTANGENT_RANGE.0, COTANGENT_RANGE.1);
+        for (&(u, v), &k) in &weights {
             columns[u as usize].push((v as usize, -k));
             sums[u as usize] += k;
             sums[v as usize] += k;
@@ -94,23 +92,4 @@ impl SmoothField {
             .map(|v| Vector::new(x[v], x[n + v], x[2 * n + v]))
             .collect())
     }
-}
-
-/// Cotangent sums are kept within this range: obtuse angles would else push neighbours apart.
-const COTANGENT_RANGE: (f64, f64) = (0.05, 10.0);
-
-/// Half the sum of the cotangents opposite to each edge (u < v).
-fn cotangents(surface: &Surface) -> BTreeMap<(u32, u32), f64> {
-    let mut weights = BTreeMap::new();
-    for (f, corners) in surface.triangles.iter().enumerate() {
-        let x = surface.corners(f as u32);
-        let doubled = 2.0 * surface.face_areas[f];
-        for k in 0..3 {
-            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-            let dot = (x[i] - x[k]).dot(&(x[j] - x[k]));
-            let (u, v) = (corners[i].min(corners[j]), corners[i].max(corners[j]));
-            *weights.entry((u, v)).or_insert(0.0) += 0.5 * dot / doubled.max(1e-300);
-        }
-    }
-    weights
 }

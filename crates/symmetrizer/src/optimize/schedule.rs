@@ -4,8 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::context::Context;
-use crate::deform::Primo;
-use crate::deform::primo::DeformParams;
+use crate::deform::{DeformParams, deformer};
 use crate::detect::{DetectParams, Detection, detect};
 use crate::error::Result;
 use crate::geom::Point;
@@ -158,12 +157,12 @@ pub fn optimize(
     if detection.symmetries.is_empty() {
         return Ok(Optimized::unmoved(surface, detection, Outcome::NoSymmetry));
     }
-    let mut deformer = ctx.stage("prepare", |_| Primo::new(surface, settings.deform))?;
+    let mut deformer = ctx.stage("prepare", |_| deformer(surface, settings.deform))?;
     let moving = Moving {
         samples: detection.samples.clone(),
         length: settings.deform.length,
         step: settings.optimize.step,
-        deformer: &mut deformer,
+        deformer: deformer.as_mut(),
     };
     Schedule {
         moving,

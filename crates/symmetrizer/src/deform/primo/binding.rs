@@ -69,12 +69,6 @@ impl Binding {
     pub fn prisms(&self, v: usize) -> &[(u32, f64)] {
         &self.weights[v]
     }
-
-    /// The prism with the largest weight at vertex `v`.
-    pub fn strongest(&self, v: usize) -> u32 {
-        let best = |a: &&(u32, f64), b: &&(u32, f64)| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0));
-        self.weights[v].iter().max_by(best).map_or(0, |&(f, _)| f)
-    }
 }
 
 fn shepard(x: &Point, candidates: &[u32], centers: &[Point]) -> Vec<(u32, f64)> {

@@ -2,12 +2,14 @@
 //!
 //! E_ij = integral over the shared side face of |f_ij - f_ji|^2, w_ij = |e|^2 / (A_i + A_j). The
 //! integrand is biquadratic, so the mean over 2x2 Gauss points is the integral; both prisms carry
-//! the same rest patch, so four rest points X_g say all: E_ij = 1/4 sum_g |x_i^g - x_j^g|^2.
+//! the same rest patch, so its mean mu and covariance C over the Gauss points say all:
+//! E_ij = tr((R_i - R_j) C (R_i - R_j)^T) + |x_i(mu) - x_j(mu)|^2.
 
-use nalgebra::{Matrix6, Vector6};
+use nalgebra::Vector6;
 
 use crate::deform::primo::motion::Motion;
-use crate::geom::{Matrix3, Point, Vector, skew};
+use crate::deform::solver::Coupling;
+use crate::geom::{Matrix3, Point, Vector};
 
 /// Gauss abscissae of [0, 1] with two points: 1/2 -+ 1/(2 sqrt 3).
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
@@ -19,16 +21,18 @@ pub struct Joint {
     pub i: usize,
     /// The other prism.
     pub j: usize,
-    /// Rest positions of the four Gauss points of the shared face.
-    pub points: [Point; 4],
-    /// w_ij / 4 with the stiffness of both prisms in it.
+    /// Mean mu of the Gauss points of the shared face, at rest.
+    pub mu: Point,
+    /// Their covariance C.
+    pub c: Matrix3,
+    /// w_ij with the stiffness of both prisms in it.
     pub weight: f64,
 }
 
-/// The Hessian blocks and gradients of one joint under Gauss-Newton.
+/// The Hessian blocks and gradients of one joint under Gauss-Newton, of half the energy.
 pub struct Blocks {
     /// H_ii, H_jj, H_ij.
-    pub hessian: [Matrix6<f64>; 3],
+    pub hessian: [Coupling; 3],
     /// g_i, g_j.
     pub gradient: [Vector6<f64>; 2],
 }
@@ -43,50 +47,61 @@ pub fn gauss_points(a: &Point, b: &Point, n_a: &Vector, n_b: &Vector, h: f64) ->
 }
 
 impl Joint {
+    /// The joint of weight w_ij between prisms `i` and `j` whose shared face has these Gauss points.
+    pub fn new(i: usize, j: usize, points: &[Point; 4], weight: f64) -> Self {
+        let mu = Point::from(points.iter().map(|x| x.coords).sum::<Vector>() / 4.0);
+        let c = points.iter().map(|x| (x - mu) * (x - mu).transpose());
+        Self {
+            i,
+            j,
+            mu,
+            c: c.sum::<Matrix3>() / 4.0,
+            weight,
+        }
+    }
+
     /// E_ij with its weight.
     pub fn energy(&self, motions: &[Motion]) -> f64 {
         let (i, j) = (&motions[self.i], &motions[self.j]);
-        let gap = |x: &Point| (i.apply(x) - j.apply(x)).norm_squared();
-        self.weight * self.points.iter().map(gap).sum::<f64>()
+        let turn = i.rotation - j.rotation;
+        let gap = i.apply(&self.mu) - j.apply(&self.mu);
+        self.weight * ((turn * self.c).dot(&turn) + gap.norm_squared())
     }
 
     /// The Gauss-Newton blocks about the present centres, unknowns (omega, v) per prism.
+    ///
+    /// With a point of the face at arm y_i = R_i xi + p from centre i and y_j = R_j xi + q from
+    /// centre j, xi its place relative to mu: sum y_j y_i^T = R_j C R_i^T + q p^T, and the gap is
+    /// r = (R_i - R_j) xi + e.
     pub fn blocks(&self, motions: &[Motion]) -> Blocks {
         let (mi, mj) = (&motions[self.i], &motions[self.j]);
-        let mut out = Blocks {
-            hessian: [Matrix6::zeros(); 3],
-            gradient: [Vector6::zeros(); 2],
-        };
+        let (x_i, x_j) = (mi.apply(&self.mu), mj.apply(&self.mu));
+        let (p, q, e) = (x_i - mi.center, x_j - mj.center, x_i - x_j);
         let w = self.weight;
-        for x in &self.points {
-            let (x_i, x_j) = (mi.apply(x), mj.apply(x));
-            let (y_i, y_j) = (x_i - mi.center, x_j - mj.center);
-            let r = x_i - x_j;
-            add(&mut out.hessian[0], w, &y_i, &y_i);
-            add(&mut out.hessian[1], w, &y_j, &y_j);
-            add(&mut out.hessian[2], -w, &y_i, &y_j);
-            out.gradient[0] += wrench(&y_i, &(w * r));
-            out.gradient[1] -= wrench(&y_j, &(w * r));
+        let spread = |a: &Motion, b: &Motion| w * a.rotation * self.c * b.rotation.transpose();
+        let across = spread(mj, mi);
+        let torque = axial(&across);
+        let wrench = |arm: &Vector, sign: f64| {
+            let m = sign * (w * arm.cross(&e) - torque);
+            let f = sign * w * e;
+            Vector6::new(m.x, m.y, m.z, f.x, f.y, f.z)
+        };
+        Blocks {
+            hessian: [
+                Coupling::new(w, &spread(mi, mi), &p, &p),
+                Coupling::new(w, &spread(mj, mj), &q, &q),
+                -Coupling::new(w, &across, &p, &q),
+            ],
+            gradient: [wrench(&p, 1.0), wrench(&q, -1.0)],
         }
-        out
     }
 }
 
-/// Adds `w [(a.b) I - b a^T, [a]; -[b], I]`: the product of two points' twist Jacobians.
-pub fn add(h: &mut Matrix6<f64>, w: f64, a: &Vector, b: &Vector) {
-    let turn = Matrix3::identity() * a.dot(b) - b * a.transpose();
-    let mut block = |r, c, m: Matrix3| {
-        let mut view = h.fixed_view_mut::<3, 3>(r, c);
-        view += w * m;
-    };
-    block(0, 0, turn);
-    block(0, 3, skew(a));
-    block(3, 0, -skew(b));
-    block(3, 3, Matrix3::identity());
-}
-
-/// (y x f, f): a force at arm y as a wrench.
-pub fn wrench(y: &Vector, f: &Vector) -> Vector6<f64> {
-    let m = y.cross(f);
-    Vector6::new(m.x, m.y, m.z, f.x, f.y, f.z)
+/// The sum of u x v over a sum of v u^T.
+fn axial(m: &Matrix3) -> Vector {
+    Vector::new(
+        m[(2, 1)] - m[(1, 2)],
+        m[(0, 2)] - m[(2, 0)],
+        m[(1, 0)] - m[(0, 1)],
+    )
 }

@@ -10,37 +10,13 @@ pub mod prisms;
 use rayon::prelude::*;
 
 use crate::context::Context;
-use crate::deform::solver::SolveError;
-use crate::deform::{Deformed, Deformer, Pull, State};
+use crate::deform::params::DeformParams;
+use crate::deform::{Deformed, Deformer, Pull, State, check_pulls, check_stiffness, failure};
 use crate::error::{Error, Result};
-use crate::geom::Point;
+use crate::geom::{Point, Vector};
 use crate::shape::{Surface, SurfacePoint};
 use binding::Binding;
-use prisms::{PrismPull, Prisms};
-
-/// The deformation model's parameters.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct DeformParams {
-    /// Stiffness length l, fraction of L: asymmetry on larger scales follows, smaller is kept by
-    /// the shell. 0.05, docs/definitions.md.
-    pub length: f64,
-    /// Half height of the prisms, fraction of L: bending stiffness grows with its square. 0.02,
-    /// ours (.005 gave spikes).
-    pub half_height: f64,
-    /// Faces of the control mesh. 4000, ours.
-    pub control_faces: usize,
-}
-
-impl Default for DeformParams {
-    fn default() -> Self {
-        Self {
-            length: 0.05,
-            half_height: 0.02,
-            control_faces: 4000,
-        }
-    }
-}
+use prisms::{Prisms, Pulled, Share};
 
 /// The PriMo deformer over a rest surface.
 pub struct Primo {
@@ -57,20 +33,7 @@ impl Primo {
     /// # Errors
     /// [`Error::Params`] for lengths that are not positive, [`Error::Numerical`].
     pub fn new(rest: &Surface, params: &DeformParams) -> Result<Self> {
-        for (name, value) in [
-            ("deform.length", params.length),
-            ("deform.half_height", params.half_height),
-        ] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(Error::params(name, "must be positive"));
-            }
-        }
-        if params.control_faces < 100 {
-            return Err(Error::params(
-                "deform.control_faces",
-                "at least 100 are needed",
-            ));
-        }
+        params.check()?;
         let control = cage::control_mesh(rest, params.control_faces)?;
         let is_fine = control.triangles.len() == rest.triangles.len();
         let binding = if is_fine {
@@ -120,25 +83,37 @@ impl Primo {
                 let x = &self.rest.positions[v];
                 self.binding.place(v, x, &self.prisms.motions).coords * b
             })
-            .sum::<crate::geom::Vector>();
+            .sum::<Vector>();
         Point::from(sum)
     }
 
-    /// The pull as its strongest prism feels it: the same displacement, from where the prism itself
-    /// holds the point.
-    fn prism_pull(&self, pull: &Pull) -> PrismPull {
+    /// The pull as the prisms feel it that carry its point.
+    fn pulled(&self, pull: &Pull) -> Pulled {
         let corners = self.rest.triangles[pull.at.face as usize];
-        let heaviest = pull.at.bary.iter().enumerate();
-        let k = heaviest
-            .max_by(|a, b| a.1.total_cmp(b.1))
-            .map_or(0, |(k, _)| k);
-        let prism = self.binding.strongest(corners[k] as usize) as usize;
-        let rest = self.rest.point(&pull.at);
-        let held = self.prisms.motions[prism].apply(&rest);
-        PrismPull {
-            prism,
-            rest,
-            target: held + (pull.target - self.place(&pull.at)),
+        let mut shares: Vec<Share> = Vec::new();
+        for (&v, b) in corners.iter().zip(pull.at.bary) {
+            let x = self.rest.positions[v as usize];
+            let carried = self.binding.prisms(v as usize).iter();
+            shares.extend(carried.map(|&(prism, share)| Share {
+                prism,
+                share: b * share,
+                rest: x,
+            }));
+        }
+        shares.retain(|s| s.share > 0.0);
+        shares.sort_by_key(|s| s.prism);
+        shares.dedup_by(|next, kept| {
+            let same = next.prism == kept.prism;
+            if same {
+                let share = kept.share + next.share;
+                kept.rest += (next.rest - kept.rest) * (next.share / share);
+                kept.share = share;
+            }
+            same
+        });
+        Pulled {
+            shares,
+            target: pull.target,
             weight: pull.weight,
         }
     }
@@ -147,13 +122,8 @@ impl Primo {
 impl Deformer for Primo {
     fn deform(&mut self, pulls: &[Pull], ctx: &mut Context<'_>) -> Result<Deformed> {
         ctx.check()?;
-        if pulls
-            .iter()
-            .any(|p| !p.target.iter().all(|c| c.is_finite()) || p.weight.is_nan() || p.weight < 0.0)
-        {
-            return Err(failure(SolveError::Inaccurate, self.steps));
-        }
-        let on_prisms: Vec<PrismPull> = pulls.par_iter().map(|p| self.prism_pull(p)).collect();
+        check_pulls(pulls, self.steps)?;
+        let on_prisms: Vec<Pulled> = pulls.par_iter().map(|p| self.pulled(p)).collect();
         let before: Vec<Point> = pulls.par_iter().map(|p| self.place(&p.at)).collect();
         self.prisms
             .step(&on_prisms)
@@ -171,12 +141,7 @@ impl Deformer for Primo {
     }
 
     fn set_stiffness(&mut self, per_face: &[f64]) -> Result<()> {
-        if per_face.len() != self.rest.triangles.len() {
-            return Err(Error::params("stiffness", "needs one value for each face"));
-        }
-        if !per_face.iter().all(|k| k.is_finite() && *k > 0.0) {
-            return Err(Error::params("stiffness", "must be positive and finite"));
-        }
+        check_stiffness(per_face, &self.rest)?;
         let k = self.to_control(per_face);
         self.prisms.set_stiffness(&k);
         Ok(())
@@ -218,27 +183,16 @@ impl Deformer for Primo {
     }
 
     fn state(&self) -> State {
-        State(self.prisms.motions.clone())
+        State::Prisms(self.prisms.motions.clone())
     }
 
     fn restore(&mut self, state: &State) {
-        self.prisms.motions.clone_from(&state.0);
+        if let State::Prisms(motions) = state {
+            self.prisms.motions.clone_from(motions);
+        }
     }
 
     fn rest(&self) -> &Surface {
         &self.rest
-    }
-}
-
-fn failure(e: SolveError, step: usize) -> Error {
-    let what = match e {
-        SolveError::NotPositiveDefinite => "the deformation system is singular",
-        SolveError::Inaccurate => "the deformation targets are not finite or cannot be met",
-        SolveError::Setup => "the deformation system could not be set up",
-    };
-    Error::Numerical {
-        stage: "deform",
-        step,
-        what: what.into(),
     }
 }

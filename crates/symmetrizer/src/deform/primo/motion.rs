@@ -1,5 +1,6 @@
 //! The rigid motion of one element, about its own centre.
 
+use crate::deform::solver::Twist;
 use crate::geom::{Matrix3, Point, Vector, exp_rotation};
 
 /// x -> R (x - c) + y: the rest centre c moves to y, the element turns by R about it.
@@ -44,5 +45,11 @@ impl Motion {
             rest_center: self.rest_center,
             center: self.center + v,
         }
+    }
+
+    /// The same for a twist of six numbers.
+    pub fn moved(&self, twist: &Twist) -> Self {
+        let (omega, v) = (twist.fixed_rows::<3>(0), twist.fixed_rows::<3>(3));
+        self.twisted(&omega.into_owned(), &v.into_owned())
     }
 }

@@ -15,23 +15,14 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side};
 
+use crate::deform::solver::SolveError;
+
 /// A lower-triangular pattern in compressed columns with its symbolic factorisation.
 pub struct Cholesky {
     pattern: SymbolicSparseColMat<usize>,
     symbolic: SymbolicCholesky<usize>,
     factor: Vec<f64>,
     scratch: Vec<MaybeUninit<u8>>,
-}
-
-/// Why a solve failed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SolveError {
-    /// The matrix is not positive definite.
-    NotPositiveDefinite,
-    /// The solution does not satisfy the system.
-    Inaccurate,
-    /// The pattern is malformed or memory ran out.
-    Setup,
 }
 
 /// Largest |A x - b| / |b| that passes for a solution.
