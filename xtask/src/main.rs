@@ -1,7 +1,9 @@
 //! What developers of this repository run: `cargo xtask VERB`. Each verb is a module.
 
+mod bench_deform;
 mod bench_detect;
 mod data;
+mod tables;
 mod terminal;
 
 use std::process::ExitCode;
@@ -18,6 +20,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Verb {
+    BenchDeform(bench_deform::Args),
     BenchDetect(bench_detect::Args),
 }
 
@@ -36,6 +39,7 @@ pub enum Answer {
 fn main() -> ExitCode {
     let cli = Cli::parse();
     let answer = match &cli.verb {
+        Verb::BenchDeform(args) => bench_deform::run(args),
         Verb::BenchDetect(args) => bench_detect::run(args),
     };
     match answer {

@@ -10,10 +10,10 @@ use symmetrizer::{Context, Mesh, Result};
 use super::found::{Found, Symmetry};
 use super::place::diagonal;
 use super::planes::{Guess, Limits, Scores, TruePlane};
-use super::tables::{Section, Table, Verdict, number};
 use super::trial::{Trial, Trials};
 use super::trivial;
 use crate::data;
+use crate::tables::{Section, Table, Verdict, number};
 
 /// A point cloud and its planes.
 pub struct Cloud {

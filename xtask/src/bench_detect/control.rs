@@ -2,10 +2,10 @@
 
 use serde_json::{Value, json};
 
-use super::tables::{Section, Table, Verdict, number};
 use super::trial::{Trial, Trials};
 use super::truth::{Shape, Truth};
 use super::verify::Verifier;
+use crate::tables::{Section, Table, Verdict, number};
 
 /// Detection on the shapes without symmetry; none where there are no such shapes.
 pub fn section(shapes: &[Shape], trials: &Trials) -> Option<Section> {

@@ -6,10 +6,10 @@ use symmetrizer::geom::Vector;
 use super::compare::{self, AxisError, Find, Nearest, RIGID, Standing, best_axis};
 use super::found::Found;
 use super::place::Axis;
-use super::tables::{Section, Table, Verdict, number, of, worst};
 use super::trial::{Trial, Trials};
 use super::truth::{Cluster, Shape, Truth};
 use super::verify::Verifier;
+use crate::tables::{Section, Table, Verdict, number, of, worst};
 
 /// The group of three planes at right angles.
 const THREE_PLANES: &str = "D2h";

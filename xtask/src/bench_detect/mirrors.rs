@@ -4,10 +4,10 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::compare::{Find, LOOSE, Nearest, RIGID, Standing, count, find, nearest};
-use super::tables::{Section, Table, Verdict, median, number, of, percent};
 use super::trial::{Trial, Trials};
 use super::truth::{Cluster, Shape, Truth};
 use super::verify::Verifier;
+use crate::tables::{Section, Table, Verdict, median, number, of, percent};
 
 /// What was found with one seed.
 #[derive(Debug, Serialize)]

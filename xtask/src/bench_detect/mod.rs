@@ -13,7 +13,6 @@ mod mirrors;
 mod place;
 mod planes;
 mod repeats;
-mod tables;
 mod time;
 mod trial;
 mod trivial;
@@ -26,8 +25,8 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 use symmetrizer::{Error, Params, Result};
 
+use crate::tables::Section;
 use crate::{Answer, data, terminal};
-use tables::Section;
 use trial::Trials;
 
 /// Measure detection on shapes with known symmetries

@@ -4,9 +4,9 @@
 use serde::Serialize;
 
 use super::copies::{FOUND, Outcome, outcome};
-use super::tables::{Section, Table, Verdict, number, of, worst};
 use super::trial::Trials;
 use super::truth::{Shape, Truth};
+use crate::tables::{Section, Table, Verdict, number, of, worst};
 
 /// Intersection over union of faces that is wanted.
 const OVERLAP: f64 = 0.8;

@@ -9,7 +9,7 @@ use symmetrizer::geom::Point;
 use symmetrizer::shape::io;
 use symmetrizer::{Context, Mesh, Params, Result, detect_in};
 
-use super::tables::{Section, Table, median, number};
+use crate::tables::{Section, Table, median, number};
 use crate::terminal;
 
 /// Runs of which the median counts.
