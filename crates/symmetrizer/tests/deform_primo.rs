@@ -5,9 +5,9 @@ mod common;
 use common::{sphere, union, working};
 use rand::RngExt;
 use rand_pcg::Pcg64;
+use symmetrizer::deform::elastic::{Motion, Spring};
 use symmetrizer::deform::primo::joint::{Joint, gauss_points};
-use symmetrizer::deform::primo::motion::Motion;
-use symmetrizer::deform::primo::prisms::Prisms;
+use symmetrizer::deform::primo::prisms;
 use symmetrizer::deform::{DeformParams, Primo};
 use symmetrizer::deform::{Deformer, Pull};
 use symmetrizer::geom::{Point, Vector, exp_rotation};
@@ -106,7 +106,7 @@ fn rigid(x: &Point) -> Point {
 #[test]
 fn rigid_motion_costs_no_energy() {
     let s = surface(&ellipsoid(3));
-    let mut prisms = Prisms::new(&s, 0.02).expect("prisms");
+    let mut prisms = prisms(&s, 0.02).expect("prisms");
     assert!(prisms.energy() < 1e-30, "{}", prisms.energy());
     for m in &mut prisms.motions {
         m.rotation = exp_rotation(&Vector::new(0.9, -0.8, 1.0));

@@ -3,6 +3,7 @@
 
 pub mod arap;
 mod bridges;
+pub mod elastic;
 mod laplacian;
 pub mod params;
 pub mod poisson;
@@ -14,7 +15,7 @@ pub mod solver;
 use crate::context::Context;
 use crate::deform::solver::SolveError;
 use crate::error::{Error, Result};
-use crate::geom::{Matrix3, Point};
+use crate::geom::Point;
 use crate::shape::{Surface, SurfacePoint};
 
 pub use arap::Arap;
@@ -84,14 +85,10 @@ pub trait Deformer {
     fn rest(&self) -> &Surface;
 }
 
-/// A deformer's state, which only one of its own kind takes.
+/// A deformer's state, a rigid motion for each of its elements; only a deformer of the same kind over the
+/// same surface takes it.
 #[derive(Debug, Clone)]
-pub enum State {
-    /// A rigid motion for each prism.
-    Prisms(Vec<primo::motion::Motion>),
-    /// A position and a rotation for each vertex.
-    Vertices(Vec<Point>, Vec<Matrix3>),
-}
+pub struct State(Vec<elastic::Motion>);
 
 /// The deformer that `params` name, over `rest`.
 ///

@@ -5,10 +5,8 @@
 //! the same rest patch, so its mean mu and covariance C over the Gauss points say all:
 //! E_ij = tr((R_i - R_j) C (R_i - R_j)^T) + |x_i(mu) - x_j(mu)|^2.
 
-use nalgebra::Vector6;
-
-use crate::deform::primo::motion::Motion;
-use crate::deform::solver::Coupling;
+use crate::deform::elastic::{Blocks, Motion, Spring};
+use crate::deform::solver::{Coupling, Twist};
 use crate::geom::{Matrix3, Point, Vector};
 
 /// Gauss abscissae of [0, 1] with two points: 1/2 -+ 1/(2 sqrt 3).
@@ -27,14 +25,6 @@ pub struct Joint {
     pub c: Matrix3,
     /// w_ij with the stiffness of both prisms in it.
     pub weight: f64,
-}
-
-/// The Hessian blocks and gradients of one joint under Gauss-Newton, of half the energy.
-pub struct Blocks {
-    /// H_ii, H_jj, H_ij.
-    pub hessian: [Coupling; 3],
-    /// g_i, g_j.
-    pub gradient: [Vector6<f64>; 2],
 }
 
 /// The Gauss points of the side face over the edge a-b with unit normals n_a, n_b and half height h.
@@ -59,21 +49,32 @@ impl Joint {
             weight,
         }
     }
+}
 
-    /// E_ij with its weight.
-    pub fn energy(&self, motions: &[Motion]) -> f64 {
+impl Spring for Joint {
+    fn ends(&self) -> [usize; 2] {
+        [self.i, self.j]
+    }
+
+    fn weight(&self) -> f64 {
+        self.weight
+    }
+
+    fn set_weight(&mut self, weight: f64) {
+        self.weight = weight;
+    }
+
+    fn energy(&self, motions: &[Motion]) -> f64 {
         let (i, j) = (&motions[self.i], &motions[self.j]);
         let turn = i.rotation - j.rotation;
         let gap = i.apply(&self.mu) - j.apply(&self.mu);
         self.weight * ((turn * self.c).dot(&turn) + gap.norm_squared())
     }
 
-    /// The Gauss-Newton blocks about the present centres, unknowns (omega, v) per prism.
-    ///
     /// With a point of the face at arm y_i = R_i xi + p from centre i and y_j = R_j xi + q from
     /// centre j, xi its place relative to mu: sum y_j y_i^T = R_j C R_i^T + q p^T, and the gap is
     /// r = (R_i - R_j) xi + e.
-    pub fn blocks(&self, motions: &[Motion]) -> Blocks {
+    fn blocks(&self, motions: &[Motion]) -> Blocks {
         let (mi, mj) = (&motions[self.i], &motions[self.j]);
         let (x_i, x_j) = (mi.apply(&self.mu), mj.apply(&self.mu));
         let (p, q, e) = (x_i - mi.center, x_j - mj.center, x_i - x_j);
@@ -84,7 +85,7 @@ impl Joint {
         let wrench = |arm: &Vector, sign: f64| {
             let m = sign * (w * arm.cross(&e) - torque);
             let f = sign * w * e;
-            Vector6::new(m.x, m.y, m.z, f.x, f.y, f.z)
+            Twist::new(m.x, m.y, m.z, f.x, f.y, f.z)
         };
         Blocks {
             hessian: [
@@ -98,7 +99,7 @@ impl Joint {
 }
 
 /// The sum of u x v over a sum of v u^T.
-fn axial(m: &Matrix3) -> Vector {
+pub(crate) fn axial(m: &Matrix3) -> Vector {
     Vector::new(
         m[(2, 1)] - m[(1, 2)],
         m[(0, 2)] - m[(2, 0)],

@@ -1,198 +1,103 @@
-//! PriMo (Botsch, Pauly, Gross, Kobbelt 2006): rigid prisms with elastic joints, on a control mesh
-//! that carries the fine surface.
+//! PriMo (Botsch, Pauly, Gross, Kobbelt 2006): rigid prisms over the faces of a surface, or of a control
+//! mesh that carries it, with elastic joints.
 
-pub mod binding;
 pub mod cage;
 pub mod joint;
-pub mod motion;
-pub mod prisms;
 
-use rayon::prelude::*;
+use std::collections::BTreeMap;
 
-use crate::context::Context;
+use crate::deform::bridges::bridges;
+use crate::deform::elastic::{Binding, Body, Elements};
+use crate::deform::failure;
 use crate::deform::params::DeformParams;
-use crate::deform::{Deformed, Deformer, Pull, State, check_pulls, check_stiffness, failure};
-use crate::error::{Error, Result};
-use crate::geom::{Point, Vector};
-use crate::shape::{Surface, SurfacePoint};
-use binding::Binding;
-use prisms::{Prisms, Pulled, Share};
+use crate::deform::solver::SolveError;
+use crate::error::Result;
+use crate::geom::Point;
+use crate::shape::Surface;
+use joint::{Joint, gauss_points};
 
-/// The PriMo deformer over a rest surface.
-pub struct Primo {
-    rest: Surface,
-    control: Surface,
-    binding: Binding,
-    prisms: Prisms,
-    steps: usize,
-}
+/// The PriMo deformer.
+pub type Primo = Body<Joint>;
+
+/// Pair weights |e|^2 / (A_i + A_j) are clamped to this range: slivers would else lock or tear
+/// (ours).
+const WEIGHT_RANGE: (f64, f64) = (1e-3, 50.0);
+
+/// Weight of the joint that ties a separate component to its nearest neighbour, beside 1 to 3 for
+/// an ordinary edge.
+const BRIDGE_WEIGHT: f64 = 0.1;
 
 impl Primo {
     /// Prisms over a control mesh of `rest`.
     ///
     /// # Errors
-    /// [`Error::Params`] for lengths that are not positive, [`Error::Numerical`].
+    /// [`crate::Error::Params`] for lengths that are not positive, [`crate::Error::Numerical`].
     pub fn new(rest: &Surface, params: &DeformParams) -> Result<Self> {
         params.check()?;
         let control = cage::control_mesh(rest, params.control_faces)?;
-        let is_fine = control.triangles.len() == rest.triangles.len();
-        let binding = if is_fine {
+        let binding = if control.triangles.len() == rest.triangles.len() {
             Binding::incident(rest)
         } else {
             Binding::nearest(rest, &control)
         };
-        let prisms = Prisms::new(&control, params.half_height).map_err(|e| failure(e, 0))?;
-        Ok(Self {
-            rest: rest.clone(),
-            control,
-            binding,
-            prisms,
-            steps: 0,
-        })
-    }
-
-    /// Per-face values of the rest surface as values of the prisms: their own where the surface is its
-    /// own control mesh, else the mean over the faces that hang on each prism.
-    fn to_control(&self, per_face: &[f64]) -> Vec<f64> {
-        if self.control.triangles.len() == self.rest.triangles.len() {
-            return per_face.to_vec();
-        }
-        let mut sum = vec![(0.0, 0.0); self.control.triangles.len()];
-        for (f, corners) in self.rest.triangles.iter().enumerate() {
-            for &v in corners {
-                for &(prism, share) in self.binding.prisms(v as usize) {
-                    let s = &mut sum[prism as usize];
-                    let w = share * self.rest.face_areas[f];
-                    s.0 += w * per_face[f];
-                    s.1 += w;
-                }
-            }
-        }
-        sum.iter()
-            .map(|&(s, w)| if w > 0.0 { s / w } else { 1.0 })
-            .collect()
-    }
-
-    fn place(&self, at: &SurfacePoint) -> Point {
-        let corners = self.rest.triangles[at.face as usize];
-        let sum = corners
-            .iter()
-            .zip(at.bary)
-            .map(|(&v, b)| {
-                let v = v as usize;
-                let x = &self.rest.positions[v];
-                self.binding.place(v, x, &self.prisms.motions).coords * b
-            })
-            .sum::<Vector>();
-        Point::from(sum)
-    }
-
-    /// The pull as the prisms feel it that carry its point.
-    fn pulled(&self, pull: &Pull) -> Pulled {
-        let corners = self.rest.triangles[pull.at.face as usize];
-        let mut shares: Vec<Share> = Vec::new();
-        for (&v, b) in corners.iter().zip(pull.at.bary) {
-            let x = self.rest.positions[v as usize];
-            let carried = self.binding.prisms(v as usize).iter();
-            shares.extend(carried.map(|&(prism, share)| Share {
-                prism,
-                share: b * share,
-                rest: x,
-            }));
-        }
-        shares.retain(|s| s.share > 0.0);
-        shares.sort_by_key(|s| s.prism);
-        shares.dedup_by(|next, kept| {
-            let same = next.prism == kept.prism;
-            if same {
-                let share = kept.share + next.share;
-                kept.rest += (next.rest - kept.rest) * (next.share / share);
-                kept.share = share;
-            }
-            same
-        });
-        Pulled {
-            shares,
-            target: pull.target,
-            weight: pull.weight,
-        }
+        let prisms = prisms(&control, params.half_height).map_err(|e| failure(e, 0))?;
+        Ok(Self::over(rest, binding, prisms))
     }
 }
 
-impl Deformer for Primo {
-    fn deform(&mut self, pulls: &[Pull], ctx: &mut Context<'_>) -> Result<Deformed> {
-        ctx.check()?;
-        check_pulls(pulls, self.steps)?;
-        let on_prisms: Vec<Pulled> = pulls.par_iter().map(|p| self.pulled(p)).collect();
-        let before: Vec<Point> = pulls.par_iter().map(|p| self.place(&p.at)).collect();
-        self.prisms
-            .step(&on_prisms)
-            .map_err(|e| failure(e, self.steps))?;
-        self.steps += 1;
-        let moved: Vec<f64> = pulls
-            .par_iter()
-            .zip(&before)
-            .map(|(p, x)| (self.place(&p.at) - x).norm_squared())
-            .collect();
-        Ok(Deformed {
-            energy: self.energy(),
-            motion: (moved.iter().sum::<f64>() / moved.len().max(1) as f64).sqrt(),
-        })
-    }
+/// Prisms of half height `h` (fraction of L) over the faces of `surface`.
+///
+/// # Errors
+/// [`SolveError::Setup`].
+pub fn prisms(surface: &Surface, h: f64) -> std::result::Result<Elements<Joint>, SolveError> {
+    let mut joints = edge_joints(surface, h);
+    let centers: Vec<Point> = (0..surface.triangles.len() as u32)
+        .map(|f| center(surface, f))
+        .collect();
+    let ties = bridges(&centers, joints.iter().map(|j| [j.i as u32, j.j as u32]));
+    let ties = ties
+        .iter()
+        .map(|&[i, j]| tie(surface, &centers, i as usize, j as usize));
+    joints.extend(ties);
+    Elements::new(&centers, joints)
+}
 
-    fn set_stiffness(&mut self, per_face: &[f64]) -> Result<()> {
-        check_stiffness(per_face, &self.rest)?;
-        let k = self.to_control(per_face);
-        self.prisms.set_stiffness(&k);
-        Ok(())
-    }
-
-    fn set_fixed(&mut self, faces: &[bool]) -> Result<()> {
-        if faces.len() != self.rest.triangles.len() {
-            return Err(Error::params("fixed", "needs one value for each face"));
-        }
-        // Every prism that carries a corner of a fixed face, else the face's rim would give way.
-        let mut fixed = vec![false; self.control.triangles.len()];
-        for (corners, _) in self.rest.triangles.iter().zip(faces).filter(|(_, f)| **f) {
-            for &v in corners {
-                for &(prism, _) in self.binding.prisms(v as usize) {
-                    fixed[prism as usize] = true;
-                }
-            }
-        }
-        self.prisms.set_fixed(fixed);
-        Ok(())
-    }
-
-    fn energy(&self) -> f64 {
-        self.prisms.energy() / self.rest.area()
-    }
-
-    fn positions(&self) -> Vec<Point> {
-        (0..self.rest.positions.len())
-            .into_par_iter()
-            .map(|v| {
-                self.binding
-                    .place(v, &self.rest.positions[v], &self.prisms.motions)
-            })
-            .collect()
-    }
-
-    fn places(&self, at: &[SurfacePoint]) -> Vec<Point> {
-        at.par_iter().map(|at| self.place(at)).collect()
-    }
-
-    fn state(&self) -> State {
-        State::Prisms(self.prisms.motions.clone())
-    }
-
-    fn restore(&mut self, state: &State) {
-        if let State::Prisms(motions) = state {
-            self.prisms.motions.clone_from(motions);
+/// A joint for each pair of faces along an edge; where more than two meet, the first with each.
+fn edge_joints(surface: &Surface, h: f64) -> Vec<Joint> {
+    let mut faces_of_edge: BTreeMap<(u32, u32), Vec<usize>> = BTreeMap::new();
+    for (f, &[a, b, c]) in surface.triangles.iter().enumerate() {
+        for (u, v) in [(a, b), (b, c), (c, a)] {
+            faces_of_edge
+                .entry((u.min(v), u.max(v)))
+                .or_default()
+                .push(f);
         }
     }
-
-    fn rest(&self) -> &Surface {
-        &self.rest
+    let mut joints = Vec::new();
+    for ((u, v), faces) in faces_of_edge {
+        let (a, b) = (u as usize, v as usize);
+        let (x_a, x_b) = (surface.positions[a], surface.positions[b]);
+        let (n_a, n_b) = (surface.vertex_normals[a], surface.vertex_normals[b]);
+        for &j in &faces[1..] {
+            let i = faces[0];
+            let areas = surface.face_areas[i] + surface.face_areas[j];
+            let w = ((x_b - x_a).norm_squared() / areas.max(f64::MIN_POSITIVE))
+                .clamp(WEIGHT_RANGE.0, WEIGHT_RANGE.1);
+            let points = gauss_points(&x_a, &x_b, &n_a, &n_b, h);
+            joints.push(Joint::new(i, j, &points, w));
+        }
     }
+    joints
+}
+
+fn center(surface: &Surface, f: u32) -> Point {
+    let [a, b, c] = surface.corners(f);
+    Point::from((a.coords + b.coords + c.coords) / 3.0)
+}
+
+/// A soft joint between prisms of two components.
+fn tie(surface: &Surface, centers: &[Point], i: usize, j: usize) -> Joint {
+    let [a, b, c] = surface.corners(i as u32);
+    let points = [a, b, c, nalgebra::center(&centers[i], &centers[j])];
+    Joint::new(i, j, &points, BRIDGE_WEIGHT)
 }

@@ -1,4 +1,4 @@
-//! The global step: positions for given rotations, one constant matrix for all three axes.
+//! Positions for given rotations, one constant matrix for all three axes.
 
 use std::collections::BTreeMap;
 

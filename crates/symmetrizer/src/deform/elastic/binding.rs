@@ -1,16 +1,15 @@
-//! How the fine surface hangs on the prisms: each vertex moves as a smooth blend of the prisms
-//! near it on the control mesh.
+//! How a surface hangs on the elements: each vertex moves as a blend of those near it.
 
 use rayon::prelude::*;
 
-use crate::deform::primo::motion::Motion;
+use crate::deform::elastic::motion::Motion;
 use crate::geom::Point;
 use crate::shape::{ClosestPoint, Surface};
 
 /// Prisms blended at a vertex.
 const BLENDED: usize = 8;
 
-/// For each fine vertex its prisms with weights that sum to 1.
+/// For each vertex its elements with weights that sum to 1.
 pub struct Binding {
     weights: Vec<Vec<(u32, f64)>>,
 }
@@ -29,6 +28,14 @@ impl Binding {
             normalize(list);
         }
         Self { weights }
+    }
+
+    /// Binds each vertex to the element of its own.
+    pub fn own(surface: &Surface) -> Self {
+        let count = surface.positions.len() as u32;
+        Self {
+            weights: (0..count).map(|v| vec![(v, 1.0)]).collect(),
+        }
     }
 
     /// Binds `fine` to prisms over `control`: at each vertex the nearest prisms among those within
@@ -65,8 +72,8 @@ impl Binding {
         Point::from(x)
     }
 
-    /// The prisms that vertex `v` hangs on, with their weights.
-    pub fn prisms(&self, v: usize) -> &[(u32, f64)] {
+    /// The elements that vertex `v` hangs on, with their weights.
+    pub fn of(&self, v: usize) -> &[(u32, f64)] {
         &self.weights[v]
     }
 }

@@ -1,12 +1,14 @@
 //! Prescribed rotations: positions whose differences are the rest shape's, turned as asked.
 
-use crate::deform::arap::system::EdgeSystem;
+pub mod system;
+
 use crate::deform::bridges::bridges;
 use crate::deform::laplacian::edge_weights;
 use crate::deform::{Pull, check_pulls, check_stiffness, failure};
 use crate::error::{Error, Result};
 use crate::geom::{Matrix3, Point, Vector};
 use crate::shape::Surface;
+use system::EdgeSystem;
 
 /// Vertex positions that minimise sum over edges of k_ij |(x_i - x_j) - (R_i + R_j) (p_i - p_j) / 2|^2 plus the
 /// `pulls`: the Poisson equation of a rotation field (Yu et al. 2004). One linear solve, exact where
