@@ -5,6 +5,7 @@ mod common;
 
 use common::{data, load, placed};
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use symmetrizer::detect::Wanted;
@@ -106,7 +107,13 @@ fn changes() -> impl Strategy<Value = Change> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 4, max_shrink_iters: 0, ..ProptestConfig::default() })]
+    // The same cases each time: a test that everyone runs must not fail by chance.
+    #![proptest_config(ProptestConfig {
+        cases: 4,
+        max_shrink_iters: 0,
+        rng_seed: RngSeed::Fixed(14),
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn a_mirror_stays_where_it_is(change in changes()) {
