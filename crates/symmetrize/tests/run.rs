@@ -177,6 +177,36 @@ fn bad_paths_are_refused_before_the_work() {
 }
 
 #[test]
+fn stiffness_is_a_number_or_a_file() {
+    let desk = Desk::new();
+    let run = |stiffness: &str, out: &str| {
+        let mut run = desk.symmetrize(&["run", "in.ply", "-o", out, "--stiffness", stiffness]);
+        run.args(FAST).assert().success();
+        desk.bytes(out)
+    };
+    let mut first = desk.symmetrize(&["run", "model:creature", "-o", "a.ply"]);
+    first
+        .args(["--write-input", "in.ply"])
+        .args(FAST)
+        .assert()
+        .success();
+    assert_eq!(run("1", "b.ply"), desk.bytes("a.ply"), "1 is the usual");
+    assert_ne!(run("20", "c.ply"), desk.bytes("a.ply"));
+    desk.write("bad.json", "{\"per\": \"edge\", \"values\": [1]}");
+    desk.write("few.json", "{\"per\": \"vertex\", \"values\": [1, 2]}");
+    for (stiffness, part) in [
+        ("0", "positive"),
+        ("none.json", "none.json"),
+        ("bad.json", "\"per\""),
+        ("few.json", "has 2 values"),
+        ("in.ply", "property `stiffness`"),
+    ] {
+        let args = ["run", "in.ply", "-o", "out.ply", "--stiffness", stiffness];
+        refused(desk.symmetrize(&args), part);
+    }
+}
+
+#[test]
 fn bad_parameters_are_refused() {
     let desk = Desk::new();
     desk.scalene();

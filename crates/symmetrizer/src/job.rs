@@ -6,6 +6,7 @@ pub mod pictures;
 
 use crate::apply::measure::{Asymmetry, AsymmetryReport, asymmetry, distortion};
 use crate::context::Context;
+use crate::deform::Stiffness;
 use crate::detect::{DetectParams, Detection, Group, detect};
 use crate::error::Result;
 use crate::optimize::schedule::Settings;
@@ -103,12 +104,28 @@ fn find_in(
 /// # Errors
 /// Those of [`detect_in`]; [`crate::Error::Numerical`].
 pub fn symmetrize(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result<Symmetrized> {
+    symmetrize_with(mesh, &Stiffness::default(), params, ctx)
+}
+
+/// [`symmetrize`] with a `stiffness` that is not the same everywhere.
+///
+/// # Errors
+/// Those of [`symmetrize`]; [`crate::Error::Params`] for a stiffness that does not fit the mesh.
+pub fn symmetrize_with(
+    mesh: &Mesh,
+    stiffness: &Stiffness,
+    params: &Params,
+    ctx: &mut Context<'_>,
+) -> Result<Symmetrized> {
     mesh.check()?;
+    stiffness.check(mesh)?;
     params.check()?;
     let detect = params.detect().mirrors_only();
     let before = find_in(Working::new(mesh)?, mesh, &detect, ctx)?;
     let measured = ctx.stage("measure", |ctx| before.asymmetry(&[], ctx))?;
+    let stiffness = stiffness.per_face(&before.working);
     let settings = Settings {
+        stiffness: stiffness.as_deref(),
         detect: &detect,
         deform: &params.deform,
         optimize: &params.optimize,

@@ -84,6 +84,8 @@ const RANGES: [(&str, f64, f64); 39] = [
 
 /// The one parameter that is a list of names; its type knows them.
 const KINDS: &str = "detect.kinds";
+/// The deformer's.
+const MODEL: &str = "deform.model";
 
 impl Params {
     /// The parameters in a TOML document; those it does not name have their defaults.
@@ -275,6 +277,9 @@ fn misfit(name: &str, error: &toml::de::Error) -> Error {
 fn range_of(name: &str) -> Option<String> {
     if name == KINDS {
         return Some(format!("any of {}", Want::names()));
+    }
+    if name == MODEL {
+        return Some("primo or arap".into());
     }
     let (_, low, high) = RANGES.iter().find(|r| r.0 == name)?;
     Some(between(*low, *high))

@@ -1,11 +1,15 @@
 //! The whole job on a generated shape: what the report says is true of the document.
 
+#![allow(clippy::print_stdout)]
 mod common;
 
-use symmetrizer::geom::{Matrix3, Point, Vector};
+use symmetrizer::deform::Stiffness;
+use symmetrizer::geom::{Matrix3, Point, Vector, nearest_orthogonal};
 use symmetrizer::report::{SymmetryReport, to_json};
 use symmetrizer::shape::models::Creature;
-use symmetrizer::{Context, Mesh, Outcome, Params, Symmetrized, detect_in, symmetrize};
+use symmetrizer::{
+    Context, Error, Mesh, Outcome, Params, Symmetrized, detect_in, symmetrize, symmetrize_with,
+};
 
 fn fast() -> Params {
     let mut params = Params::default();
@@ -144,4 +148,83 @@ fn a_cancelled_job_stops_before_its_first_stage() {
     assert!(matches!(result, Err(symmetrizer::Error::Cancelled)));
     drop(ctx);
     assert_eq!(stages, 0);
+}
+
+/// rms distance of `moved` from the rigid motion that takes `rest` nearest to it.
+fn bent(rest: &[Point], moved: &[Point]) -> f64 {
+    let mean = |x: &[Point]| x.iter().map(|p| p.coords).sum::<Vector>() / x.len() as f64;
+    let (a, b) = (mean(rest), mean(moved));
+    let pairs = || {
+        rest.iter()
+            .zip(moved)
+            .map(|(x, y)| (x.coords - a, y.coords - b))
+    };
+    let spread = pairs().map(|(x, y)| y * x.transpose()).sum::<Matrix3>();
+    let turn = nearest_orthogonal(&spread, false);
+    let away: f64 = pairs().map(|(x, y)| (y - turn * x).norm_squared()).sum();
+    (away / rest.len() as f64).sqrt()
+}
+
+#[test]
+fn a_stiff_region_is_left_in_shape() {
+    let mesh = Creature::default().mesh();
+    // The soft rest takes up what the back third would have had to give.
+    let low = mesh.positions.iter().map(|x| x.x).fold(f64::MAX, f64::min);
+    let third = low + 0.33 * (mesh.positions.iter().map(|x| x.x).fold(f64::MIN, f64::max) - low);
+    let stiff: Vec<bool> = mesh.positions.iter().map(|x| x.x < third).collect();
+    let field = |k: f64| {
+        let values = stiff.iter().map(|s| if *s { k } else { 1.0 });
+        Stiffness::Vertices(values.collect())
+    };
+    let bent = |stiffness: &Stiffness| {
+        let job = symmetrize_with(&mesh, stiffness, &fast(), &mut Context::new(3)).unwrap();
+        assert!(job.report.result.unwrap().asymmetry.mean < 0.2);
+        let pick = |x: &[Point]| {
+            let of = x.iter().zip(&stiff).filter(|(_, s)| **s);
+            of.map(|(x, _)| *x).collect::<Vec<Point>>()
+        };
+        bent(&pick(&mesh.positions), &pick(&job.shape.positions)) / mesh.diagonal()
+    };
+    let (usual, firm) = (bent(&Stiffness::default()), bent(&field(100.0)));
+    println!("bent by {usual:.5} of D, stiff {firm:.5}");
+    assert!(firm < 0.5 * usual, "{usual} {firm}");
+}
+
+#[test]
+fn a_stiffness_that_does_not_fit_is_refused() {
+    let mesh = Creature::default().mesh();
+    let n = mesh.positions.len();
+    for bad in [
+        Stiffness::Uniform(0.0),
+        Stiffness::Uniform(f64::NAN),
+        Stiffness::Vertices(vec![1.0; n - 1]),
+        Stiffness::Polygons(vec![1.0; n]),
+        Stiffness::Vertices(vec![-1.0; n]),
+    ] {
+        let result = symmetrize_with(&mesh, &bad, &fast(), &mut Context::default());
+        assert!(matches!(result, Err(Error::Params { .. })));
+    }
+}
+
+#[test]
+fn stiffness_is_read_from_a_property_and_from_json() {
+    let corners = "0 0 0 1\n1 0 0 2\n0 1 0 3\n0 0 1 4\n";
+    let text = format!(
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+         property float stiffness\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n\
+         {corners}3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n"
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("t.ply");
+    std::fs::write(&path, text).unwrap();
+    let document = symmetrizer::shape::io::read(&path).unwrap();
+    let field = Stiffness::of_document(&document);
+    assert_eq!(field, Some(Stiffness::Vertices(vec![1.0, 2.0, 3.0, 4.0])));
+    let working = symmetrizer::shape::Working::new(&document.mesh).unwrap();
+    let per_face = field.unwrap().per_face(&working).unwrap();
+    assert_eq!(per_face, [2.0, 7.0 / 3.0, 3.0, 8.0 / 3.0]);
+    let json = r#"{"per": "face", "values": [1, 2, 3, 4]}"#;
+    let faces = Stiffness::from_json(json).unwrap();
+    assert_eq!(faces, Stiffness::Polygons(vec![1.0, 2.0, 3.0, 4.0]));
+    assert!(Stiffness::from_json("[1]").is_err());
 }

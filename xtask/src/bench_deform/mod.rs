@@ -8,8 +8,10 @@ mod work;
 use std::path::PathBuf;
 
 use symmetrizer::deform::{DeformParams, Model, deformer, relax, relax::total};
-use symmetrizer::{Context, Result};
+use symmetrizer::shape::io;
+use symmetrizer::{Context, Mesh, Result};
 
+use crate::bench_detect::time::divided;
 use crate::tables::{Table, number};
 use crate::{Answer, data, terminal};
 use clock::Clock;
@@ -25,6 +27,9 @@ pub struct Args {
     /// lines of JSON with task, tool and cpu_min (seconds)
     #[arg(long, value_name = "PROGRAM")]
     peer: Option<PathBuf>,
+    /// Measure growth to 1,100,000 triangles instead
+    #[arg(long)]
+    growth: bool,
     /// Where to write meshes and constraints, for other peers
     #[arg(long, value_name = "FOLDER")]
     write: Option<PathBuf>,
@@ -35,23 +40,30 @@ const WORKS: [(usize, usize); 3] = [(0, 2000), (25_000, 2000), (5_000, 400)];
 /// How near to the converged total counts as there.
 const NEAR: f64 = 0.01;
 
+/// Columns of the table.
+const HEADS: [&str; 7] = [
+    "triangles",
+    "deformer",
+    "set-up s",
+    "steps",
+    "to 1 % s",
+    "both s",
+    "CPU s",
+];
+
 /// Runs the benchmark.
 ///
 /// # Errors
 /// Test data that is missing or damaged; those of deformation.
 pub fn run(args: &Args) -> Result<Answer> {
     let bunny = data::root()?.join("3d/bunny.obj");
-    let mut table = Table::new([
-        "triangles",
-        "deformer",
-        "set-up s",
-        "steps",
-        "to 1 % s",
-        "both s",
-        "CPU s",
-    ]);
+    let mesh = io::read(&bunny)?.mesh;
+    if args.growth {
+        return growth(mesh, args.runs);
+    }
+    let mut table = Table::new(HEADS);
     for (triangles, held) in WORKS {
-        let work = Work::new(&bunny, triangles, held)?;
+        let work = Work::new(&mesh, triangles, held)?;
         for model in [Model::Primo, Model::Arap] {
             table.row(ours(&work, model, args.runs)?);
         }
@@ -62,6 +74,22 @@ pub fn run(args: &Args) -> Result<Answer> {
             for row in peer::rows(program, &work, args.runs)? {
                 table.row(row);
             }
+        }
+    }
+    terminal::answer(&table.to_string());
+    Ok(Answer::Done)
+}
+
+/// The same on ever finer copies of the bunny, 2,000 vertices held, PriMo on at most 100,000 prisms.
+fn growth(mut mesh: Mesh, runs: usize) -> Result<Answer> {
+    let mut table = Table::new(HEADS);
+    for (triangles, divide) in [(10_000, false), (0, false), (0, true), (0, true)] {
+        if divide {
+            mesh = divided(&mesh);
+        }
+        let work = Work::new(&mesh, triangles, 2000)?;
+        for model in [Model::Primo, Model::Arap] {
+            table.row(ours(&work, model, runs)?);
         }
     }
     terminal::answer(&table.to_string());

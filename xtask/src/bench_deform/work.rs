@@ -9,7 +9,7 @@ use rand_pcg::Pcg64;
 use symmetrizer::deform::{DeformParams, Pull, primo::cage::control_mesh};
 use symmetrizer::geom::{Point, Vector, exp_rotation};
 use symmetrizer::shape::working::Working;
-use symmetrizer::shape::{Surface, SurfacePoint, io};
+use symmetrizer::shape::{Mesh, Surface, SurfacePoint};
 use symmetrizer::{Error, Result};
 
 /// The longest way of a held vertex, as a share of the bounding box's diagonal.
@@ -26,13 +26,12 @@ pub struct Work {
 }
 
 impl Work {
-    /// The model of `path` with about `triangles` triangles, 0 for all, held at `held` vertices.
+    /// `mesh` with about `triangles` triangles, 0 for all, held at `held` vertices.
     ///
     /// # Errors
-    /// A file that is missing or damaged.
-    pub fn new(path: &Path, triangles: usize, held: usize) -> Result<Self> {
-        let mesh = io::read(path)?.mesh;
-        let mut surface = Working::new(&mesh)?.surface;
+    /// A mesh that cannot be worked on.
+    pub fn new(mesh: &Mesh, triangles: usize, held: usize) -> Result<Self> {
+        let mut surface = Working::new(mesh)?.surface;
         if triangles > 0 {
             surface = control_mesh(&surface, triangles)?;
         }

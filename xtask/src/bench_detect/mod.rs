@@ -13,7 +13,7 @@ mod mirrors;
 mod place;
 mod planes;
 mod repeats;
-mod time;
+pub mod time;
 mod trial;
 mod trivial;
 mod truth;

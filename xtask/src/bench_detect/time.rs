@@ -81,7 +81,7 @@ fn time(mesh: &Mesh, params: &Params) -> Result<f64> {
 }
 
 /// `mesh` with each triangle divided into four at the midpoints of its sides.
-fn divided(mesh: &Mesh) -> Mesh {
+pub fn divided(mesh: &Mesh) -> Mesh {
     let triangles: Vec<[u32; 3]> = mesh.triangles().map(|(t, _)| t).collect();
     let sorted = |[u, v]: [u32; 2]| [u.min(v), u.max(v)];
     let sides = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]].map(sorted);

@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use symmetrizer::deform::Stiffness;
 use symmetrizer::job::pictures;
-use symmetrizer::shape::Document;
-use symmetrizer::{Context, Outcome, Params, Result, Symmetrized, Warning, symmetrize};
+use symmetrizer::shape::{Document, io};
+use symmetrizer::{Context, Error, Outcome, Params, Result, Symmetrized, Warning, symmetrize_with};
 
 use crate::Answer;
 use crate::files::{MeshFile, PictureFile, ReportFile, check_distinct, commit};
@@ -35,6 +36,11 @@ pub struct RunArgs {
     /// written as it is then
     #[arg(long, value_name = "ENERGY")]
     max_deformation: Option<f64>,
+    /// How stiff the shape is, 1 as usual: soft regions take up the deformation, stiff ones move as one
+    /// piece. One number for all of it, or a file: a PLY with the property `stiffness` per vertex or
+    /// face, or JSON {"per": "vertex", "values": [..]} (or "face")
+    #[arg(long, value_name = "NUMBER|FILE")]
+    stiffness: Option<String>,
     /// Where no symmetry is found, write the input unchanged
     #[arg(long)]
     write_unchanged: bool,
@@ -59,7 +65,9 @@ pub fn run(args: &RunArgs, desk: &Desk) -> Result<Answer> {
     let files = Files::reserve(args)?;
     let mut ctx = desk.context();
     let document = args.input.read(&mut ctx)?;
-    let mut job = symmetrize(&document.mesh, &params, &mut ctx).map_err(|e| args.input.blame(e))?;
+    let stiffness = args.stiffness()?;
+    let mut job = symmetrize_with(&document.mesh, &stiffness, &params, &mut ctx)
+        .map_err(|e| args.input.blame(e))?;
     job.report.input.shape.file = Some(args.input.name());
     let found = job.outcome != Outcome::NoSymmetry;
     let shape = found || args.write_unchanged;
@@ -76,6 +84,27 @@ impl RunArgs {
             params.set("optimize.max_deformation", &energy.to_string())?;
         }
         Ok(params)
+    }
+
+    fn stiffness(&self) -> Result<Stiffness> {
+        let Some(text) = &self.stiffness else {
+            return Ok(Stiffness::default());
+        };
+        if let Ok(k) = text.parse() {
+            return Ok(Stiffness::Uniform(k));
+        }
+        let path = Path::new(text);
+        if path
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("json"))
+        {
+            let json = std::fs::read_to_string(path).map_err(|e| Error::io(path, e))?;
+            return Stiffness::from_json(&json).map_err(|e| e.in_file(text));
+        }
+        Stiffness::of_document(&io::read(path)?).ok_or_else(|| {
+            let what = "no vertex or face has the property `stiffness`";
+            Error::input(what, "give a number, JSON, or a PLY that has it").in_file(text)
+        })
     }
 
     /// The line that says where everything is.

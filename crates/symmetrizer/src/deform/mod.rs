@@ -11,6 +11,7 @@ pub mod primo;
 pub mod relax;
 pub mod smooth;
 pub mod solver;
+pub mod stiffness;
 
 use crate::context::Context;
 use crate::deform::solver::SolveError;
@@ -22,6 +23,7 @@ pub use arap::Arap;
 pub use params::{DeformParams, Model};
 pub use primo::Primo;
 pub use relax::relax;
+pub use stiffness::Stiffness;
 
 /// A soft positional constraint at a point of the rest surface.
 #[derive(Debug, Clone, Copy)]

@@ -23,13 +23,14 @@ pub struct SmoothField {
 const FLOOR: f64 = 1e-6;
 
 impl SmoothField {
-    /// The system of `surface`.
+    /// The system of `surface`, its edges as much stiffer as the faces beside them where `stiffness` has
+    /// a value for each face.
     ///
     /// # Errors
     /// [`SolveError::Setup`].
-    pub fn new(surface: &Surface) -> Result<Self, SolveError> {
+    pub fn new(surface: &Surface, stiffness: Option<&[f64]>) -> Result<Self, SolveError> {
         let n = surface.positions.len();
-        let weights = edge_weights(surface, None);
+        let weights = edge_weights(surface, stiffness);
         let mut columns: Vec<Vec<(usize, f64)>> = vec![Vec::new(); n];
         let mut sums = vec![0.0; n];
         for (&(u, v), &k) in &weights {

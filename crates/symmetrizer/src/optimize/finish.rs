@@ -11,7 +11,7 @@ use crate::context::Context;
 use crate::deform::smooth::SmoothField;
 use crate::error::{Error, Result};
 use crate::geom::{Point, Vector};
-use crate::optimize::params::OptimizeParams;
+use crate::optimize::schedule::Settings;
 use crate::optimize::untangle::untangle;
 use crate::shape::{ClosestPoint, Hit, Surface};
 use crate::transform::{Ambient, Correspondence, Isometry, Plane, displacements, optimal_mirror};
@@ -54,15 +54,16 @@ pub fn finish(
     surface: Surface,
     plane: Plane,
     goal: f64,
-    params: &OptimizeParams,
+    settings: Settings<'_>,
     ctx: &mut Context<'_>,
 ) -> Result<Finished> {
+    let params = settings.optimize;
     let fail = |_| Error::Numerical {
         stage: "finish",
         step: 0,
         what: "the smoothing system could not be solved".into(),
     };
-    let mut field = SmoothField::new(&surface).map_err(fail)?;
+    let mut field = SmoothField::new(&surface, settings.stiffness).map_err(fail)?;
     let mut now = surface.clone();
     let mut aim = Aim::at(&now, plane);
     let before = aim.asymmetry;

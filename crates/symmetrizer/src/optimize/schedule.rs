@@ -128,6 +128,8 @@ fn next_id(detection: &Detection) -> u32 {
 pub struct Settings<'a> {
     /// Detection, for pairs that are found again on the way.
     pub detect: &'a DetectParams,
+    /// Stiffness of each face, where it is not 1 everywhere.
+    pub stiffness: Option<&'a [f64]>,
     /// The deformation model.
     pub deform: &'a DeformParams,
     /// The schedule.
@@ -158,6 +160,9 @@ pub fn optimize(
         return Ok(Optimized::unmoved(surface, detection, Outcome::NoSymmetry));
     }
     let mut deformer = ctx.stage("prepare", |_| deformer(surface, settings.deform))?;
+    if let Some(stiffness) = settings.stiffness {
+        deformer.set_stiffness(stiffness)?;
+    }
     let moving = Moving {
         samples: detection.samples.clone(),
         length: settings.deform.length,
@@ -265,7 +270,7 @@ impl Schedule<'_> {
             let now = self.moving.deformer.rest().with_positions(positions);
             let params = self.settings.optimize;
             let goal = params.finish_asymmetry.min(FINISH_SHARE * asymmetry_before);
-            let done = ctx.stage("finish", |ctx| finish(now, plane, goal, params, ctx))?;
+            let done = ctx.stage("finish", |ctx| finish(now, plane, goal, self.settings, ctx))?;
             self.steps.push(Step::Finish {
                 rounds: done.rounds,
                 asymmetry: done.asymmetry,
