@@ -1,7 +1,7 @@
 //! The 6x6 block between two rigid elements: sixteen numbers instead of thirty-six.
 //!
 //! Springs of weights w between points at arms y_i and y_j from the elements' centres give, for twists
-//! (omega, v): [tr(M) I - M, [a]; -[b], s] with M = sum w y_j y_i^T, a = sum w y_i, b = sum w y_j,
+//! (omega, v): `[tr(M) I - M, [a]; -[b], s]` with M = sum w y_j y_i^T, a = sum w y_i, b = sum w y_j,
 //! s = sum w.
 
 use std::ops::{AddAssign, Neg};

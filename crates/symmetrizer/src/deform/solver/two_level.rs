@@ -193,13 +193,12 @@ impl TwoLevel {
         };
         Ok(ready.arms.par_iter().enumerate().map(carried).collect())
     }
-}
 
-/// Share of the mean diagonal that is added to the pieces' system.
-const COARSE_RIDGE: f64 = 1e-9;
-
-impl Solver for TwoLevel {
-    fn solve(&mut self, system: &System, b: &[Twist]) -> Result<Vec<Twist>, SolveError> {
+    /// Conjugate gradients from rest.
+    ///
+    /// # Errors
+    /// [`SolveError::Inaccurate`] where they do not come near enough in time.
+    fn iterate(&mut self, system: &System, b: &[Twist]) -> Result<Vec<Twist>, SolveError> {
         let ready = self.ready(system)?;
         let mut x = vec![Twist::zeros(); b.len()];
         let mut r = b.to_vec();
@@ -227,6 +226,19 @@ impl Solver for TwoLevel {
                 .for_each(|(p, z)| *p = z + beta * *p);
         }
         Err(SolveError::Inaccurate)
+    }
+}
+
+/// Share of the mean diagonal that is added to the pieces' system.
+const COARSE_RIDGE: f64 = 1e-9;
+
+impl Solver for TwoLevel {
+    fn solve(&mut self, system: &System, b: &[Twist]) -> Result<Vec<Twist>, SolveError> {
+        match self.iterate(system, b) {
+            // Slivers among stiff parts can be too much for iterations; factorising is slow but sure.
+            Err(_) => Direct::new(system.centers.len(), &self.pairs)?.solve(system, b),
+            solved => solved,
+        }
     }
 }
 
