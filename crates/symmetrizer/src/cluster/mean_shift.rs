@@ -202,6 +202,15 @@ impl Votes {
     }
 }
 
+/// [`Votes::density`] of `pairs` at one point only, for which an index would not pay.
+pub fn density_of(pairs: &[Pair], space: &TransformSpace, x: &Phi, h: f64) -> f64 {
+    let share = |v: &Pair| {
+        let d2 = (space.embed(&v.q_from_p) - x).norm_squared();
+        (d2 < h * h).then(|| v.weight * (1.0 - d2 / (h * h)))
+    };
+    pairs.iter().filter_map(share).sum()
+}
+
 /// The principal axes of a set of phi, largest variance first, as rows.
 pub(crate) fn leading_axes<const K: usize>(phi: &[Phi]) -> SMatrix<f64, K, 12> {
     let n = phi.len().max(1) as f64;

@@ -4,4 +4,4 @@ pub mod density;
 pub mod mean_shift;
 
 pub use density::Projection;
-pub use mean_shift::{Cluster, ClusterParams, Votes};
+pub use mean_shift::{Cluster, ClusterParams, Votes, density_of};

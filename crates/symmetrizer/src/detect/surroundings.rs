@@ -1,6 +1,6 @@
 //! What symmetries are looked for on, and what any of them must stand up to.
 
-use crate::cluster::{Cluster, Votes};
+use crate::cluster::{Cluster, density_of};
 use crate::context::Context;
 use crate::detect::{Cloud, DetectParams};
 use crate::pair::{Pair, shuffled_mirrors};
@@ -92,7 +92,7 @@ impl Surroundings<'_> {
                 let other =
                     shuffled_mirrors(&weighed, self.ground.samples, &self.params.pair, &mut rng);
                 let share = weighed.len() as f64 / other.len().max(1) as f64;
-                share * Votes::new(&other, self.space).density(&cluster.mode, h)
+                share * density_of(&other, self.space, &cluster.mode, h)
             })
             .sum::<f64>()
             / SHUFFLES as f64;
