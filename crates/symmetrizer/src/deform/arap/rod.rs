@@ -83,3 +83,43 @@ impl Spring for Rod {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Point;
+    use rand::{RngExt, SeedableRng};
+    use rand_pcg::Pcg64;
+
+    #[test]
+    fn the_gradient_equals_finite_differences() {
+        let mut rng = Pcg64::seed_from_u64(7);
+        let rod = Rod {
+            i: 0,
+            j: 1,
+            weight: 0.7,
+            smoothing: 0.02,
+        };
+        let ends = [Point::new(0.1, 0.2, -0.1), Point::new(0.3, 0.1, 0.2)];
+        for _ in 0..20 {
+            let motions = ends.map(|x| {
+                let twist = Twist::from_fn(|_, _| 0.5 * rng.random_range(-1.0..1.0));
+                Motion::rest(x).moved(&twist)
+            });
+            let gradient = rod.blocks(&motions).gradient;
+            for (which, axis) in (0..12).map(|k| (k / 6, k % 6)) {
+                let at = |h: f64| {
+                    let mut moved = motions;
+                    let mut twist = Twist::zeros();
+                    twist[axis] = h;
+                    moved[which] = moved[which].moved(&twist);
+                    rod.energy(&moved)
+                };
+                // The blocks belong to half the energy.
+                let numeric = (at(1e-6) - at(-1e-6)) / 4e-6;
+                let exact = gradient[which][axis];
+                assert!((numeric - exact).abs() < 1e-7, "{numeric} {exact}");
+            }
+        }
+    }
+}
