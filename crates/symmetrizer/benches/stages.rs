@@ -154,6 +154,7 @@ fn deformation(c: &mut Criterion, b: &Bunny) {
         samples: b.found.samples.clone(),
         length: b.deform.length,
         step: b.optimize.step,
+        closest: ClosestPoint::new(&b.surface),
     };
     let patch = &b.detect.patch;
     let plane = b.found.symmetries[0].plane();

@@ -14,7 +14,7 @@ use crate::optimize::{Optimized, Outcome, optimize};
 use crate::params::Params;
 use crate::patch::{Symmetry, carry_ids};
 use crate::report::faces::FaceSamples;
-use crate::report::{Head, InputReport, Report, ResultReport, symmetry};
+use crate::report::{Head, InputReport, Report, ResultReport, StiffnessReport, symmetry};
 use crate::shape::working::{Mended, Working};
 use crate::shape::{Document, Mesh};
 use crate::transform::{Elements, Plane};
@@ -142,6 +142,7 @@ pub fn symmetrize_with(
         head: Head::new(params, ctx),
         outcome: done.outcome,
         warnings: Vec::new(),
+        stiffness: stiffness.as_deref().map(StiffnessReport::new),
         input: InputReport::new(mesh, &before, &faces, Some(asymmetry)),
         result: None,
         steps: done.steps.clone(),

@@ -57,6 +57,9 @@ pub struct Report {
     pub outcome: Outcome,
     /// What the user should know.
     pub warnings: Vec<Warning>,
+    /// The stiffness that was asked for; none where it is 1 everywhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stiffness: Option<StiffnessReport>,
     /// The shape as it came.
     pub input: InputReport,
     /// The shape as it went; none where no symmetry was found.
@@ -105,6 +108,29 @@ pub struct MeasureReport {
     /// Time and memory, filled in by a caller with a clock.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub run: Option<RunReport>,
+}
+
+/// How stiff the shape was.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StiffnessReport {
+    /// What the caller named the field; none for a number.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+    /// The least over the faces, a multiple of the usual.
+    pub min: f64,
+    /// The greatest.
+    pub max: f64,
+}
+
+impl StiffnessReport {
+    /// Of these values for each face.
+    pub fn new(per_face: &[f64]) -> Self {
+        Self {
+            file: None,
+            min: per_face.iter().copied().fold(f64::INFINITY, f64::min),
+            max: per_face.iter().copied().fold(0.0, f64::max),
+        }
+    }
 }
 
 /// A shape.

@@ -6,7 +6,7 @@ use std::path::Path;
 use rand::SeedableRng;
 use rand::seq::index;
 use rand_pcg::Pcg64;
-use symmetrizer::deform::{DeformParams, Pull, primo::cage::control_mesh};
+use symmetrizer::deform::{DeformParams, Pull, control_mesh};
 use symmetrizer::geom::{Point, Vector, exp_rotation};
 use symmetrizer::shape::working::Working;
 use symmetrizer::shape::{Mesh, Surface, SurfacePoint};

@@ -69,6 +69,9 @@ pub fn run(args: &RunArgs, desk: &Desk) -> Result<Answer> {
     let mut job = symmetrize_with(&document.mesh, &stiffness, &params, &mut ctx)
         .map_err(|e| args.input.blame(e))?;
     job.report.input.shape.file = Some(args.input.name());
+    if let (Some(report), Some(text)) = (&mut job.report.stiffness, &args.stiffness) {
+        report.file = text.parse::<f64>().is_err().then(|| text.clone());
+    }
     let found = job.outcome != Outcome::NoSymmetry;
     let shape = found || args.write_unchanged;
     files.write(shape, &document, &mut job, args, (&mut ctx, desk))?;

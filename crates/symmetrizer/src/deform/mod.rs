@@ -3,6 +3,8 @@
 
 pub mod arap;
 mod bridges;
+pub mod carry;
+pub mod control;
 pub mod elastic;
 mod laplacian;
 pub mod params;
@@ -20,6 +22,8 @@ use crate::geom::Point;
 use crate::shape::{Surface, SurfacePoint};
 
 pub use arap::Arap;
+pub use carry::carry;
+pub use control::control_mesh;
 pub use params::{DeformParams, Model};
 pub use primo::Primo;
 pub use relax::relax;

@@ -24,8 +24,8 @@ pub struct DeformParams {
     /// Half height of the prisms, fraction of L: bending stiffness grows with its square. 0.02,
     /// ours (.005 gave spikes).
     pub half_height: f64,
-    /// Faces of PriMo's control mesh; a surface of no more than half as many again is its own. 4000,
-    /// ours.
+    /// Faces of the control mesh that carries the surface; a surface of no more than half as many again
+    /// is its own. 4000, ours.
     pub control_faces: usize,
 }
 

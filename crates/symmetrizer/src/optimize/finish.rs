@@ -1,20 +1,22 @@
-//! The finish at full resolution: what the control mesh is too coarse to carry.
+//! The finish at full resolution: what the deformer's control mesh is too coarse to carry.
 //!
 //! Each vertex is drawn half of the way, along its normal, to its mirrored closest point; the field of
 //! these displacements is smoothed by a screened Laplacian, so that the surface moves as cloth and
 //! not as dust. The smoothing length falls from round to round and the rounds end as soon as the
 //! shape is symmetric enough: detail is rubbed out no further than that takes.
 
-use rayon::prelude::*;
-
 use crate::context::Context;
 use crate::deform::smooth::SmoothField;
+use crate::deform::solver::SolveError;
+use crate::deform::{carry, control_mesh};
 use crate::error::{Error, Result};
 use crate::geom::{Point, Vector};
+use crate::optimize::OptimizeParams;
+use crate::optimize::aim::Aim;
 use crate::optimize::schedule::Settings;
 use crate::optimize::untangle::untangle;
-use crate::shape::{ClosestPoint, Hit, Surface};
-use crate::transform::{Ambient, Correspondence, Isometry, Plane, displacements, optimal_mirror};
+use crate::shape::{ClosestPoint, Surface};
+use crate::transform::Plane;
 
 /// What the finish did.
 #[derive(Debug, Clone)]
@@ -32,9 +34,6 @@ pub struct Finished {
     pub undone: f64,
 }
 
-/// Closest points that draw a vertex lie within this distance, fraction of L.
-const REACH: f64 = 0.05;
-
 /// Factor of the smoothing length from round to round.
 const REFINE: f64 = 0.8;
 
@@ -45,217 +44,192 @@ const COARSE_ROUNDS: usize = 5;
 /// A round that leaves more than this share of the asymmetry gains nothing that is worth its change.
 const STALLED: f64 = 0.995;
 
+/// Long smoothing lengths are run on a copy of about the first number of faces, down to this many of its
+/// edges; what is left on one of the second, and the rest of the surface is carried along: finer triangles
+/// add detail, not asymmetry.
+const LEVELS: [(usize, f64); 2] = [(20_000, 1.5), (100_000, 0.0)];
+
 /// Runs the rounds of the finish on `surface` under the mirror `plane` until the mean asymmetry is
 /// `goal` (fraction of L) or falls no further.
 ///
 /// # Errors
 /// [`Error::Numerical`], [`Error::Cancelled`].
 pub fn finish(
-    surface: Surface,
+    surface: &Surface,
     plane: Plane,
     goal: f64,
     settings: Settings<'_>,
     ctx: &mut Context<'_>,
 ) -> Result<Finished> {
-    let params = settings.optimize;
-    let fail = |_| Error::Numerical {
-        stage: "finish",
-        step: 0,
-        what: "the smoothing system could not be solved".into(),
-    };
-    let mut field = SmoothField::new(&surface, settings.stiffness).map_err(fail)?;
     let mut now = surface.clone();
-    let mut aim = Aim::at(&now, plane);
-    let before = aim.asymmetry;
-    let mut rounds = 0;
-    let [mut lambda, shortest] = params.finish_lengths;
-    let mut reached = false;
-    while !reached && rounds < params.finish_rounds {
-        ctx.progress(rounds as f64 / params.finish_rounds as f64)?;
-        let moves = field
-            .solve(&aim.targets, &aim.confidence, lambda)
-            .map_err(fail)?;
-        let mut next = displaced(&now, &moves, 1.0);
-        let mut next_aim = Aim::at(&next, aim.plane);
-        if rounds >= COARSE_ROUNDS && next_aim.asymmetry > STALLED * aim.asymmetry {
-            if lambda <= shortest {
-                break;
-            }
-            // Nothing to gain at this length: try the next without taking the round.
-            rounds += 1;
-            lambda = (lambda * REFINE).max(shortest);
+    let mut rounds = Rounds::new(settings.optimize, goal, plane);
+    for (faces, edges) in LEVELS {
+        let control = control_mesh(&now, faces)?;
+        let whole = control.triangles.len() == now.triangles.len();
+        let until = if whole {
+            0.0
+        } else {
+            edges * control.mean_edge()
+        };
+        if !rounds.wanted(until) {
             continue;
         }
-        let below = next_aim.asymmetry <= goal;
-        reached = below && rounds + 1 >= COARSE_ROUNDS;
-        if reached && aim.asymmetry > goal {
-            // No further than the goal: the part of the last round that takes it there.
-            let fraction = (aim.asymmetry - goal) / (aim.asymmetry - next_aim.asymmetry);
-            next = displaced(&now, &moves, fraction);
-            next_aim = Aim::at(&next, aim.plane);
-        }
-        (now, aim) = (next, next_aim);
-        rounds += 1;
-        lambda = (lambda * REFINE).max(shortest);
+        let stiffness = settings.stiffness.map(|k| stiffness_on(&control, &now, k));
+        let mut cloth =
+            Cloth::new(&control, stiffness.as_deref(), rounds.plane).map_err(failure)?;
+        rounds.run(&mut cloth, until, ctx)?;
+        now = if whole {
+            cloth.now
+        } else {
+            now.with_positions(carry(&now, &control, &cloth.now.positions))
+        };
     }
-    let (now, undone) = untangle(&surface, now);
+    let (now, undone) = untangle(surface, now);
     if undone > 0.0 {
-        aim = Aim::at(&now, aim.plane);
+        let aim = Aim::at(&now, rounds.plane, &ClosestPoint::new(&now));
+        rounds.note(&aim);
     }
     Ok(Finished {
         undone,
         positions: now.positions,
-        plane: aim.plane,
-        rounds,
-        asymmetry: [before, aim.asymmetry],
+        plane: rounds.plane,
+        rounds: rounds.done,
+        asymmetry: rounds.asymmetry.unwrap_or_default(),
     })
 }
 
-/// The surface with `fraction` of the displacements `moves`.
-fn displaced(surface: &Surface, moves: &[Vector], fraction: f64) -> Surface {
-    let moved = surface.positions.iter().zip(moves);
-    surface.with_positions(moved.map(|(x, u)| x + u * fraction).collect())
-}
-
-/// Where every vertex should go, and how asymmetric the surface is.
-struct Aim {
-    /// Displacement along the normal (equation 1).
-    targets: Vec<Vector>,
-    /// Confidence in each, 0 for none.
-    confidence: Vec<f64>,
-    /// The mirror refitted to the pairs.
-    plane: Plane,
-    /// Area-weighted mean distance of the mirrored vertices from the surface.
-    asymmetry: f64,
-}
-
-/// A vertex's partner.
-struct Partner {
-    point: Point,
-    confidence: f64,
-}
-
-impl Aim {
-    fn at(surface: &Surface, plane: Plane) -> Self {
-        let closest = ClosestPoint::new(surface);
-        let mirror = Isometry::mirror(&plane);
-        let found: Vec<(f64, Option<Partner>)> = (0..surface.positions.len())
-            .into_par_iter()
-            .map(|v| partner(surface, &closest, &mirror, v))
-            .collect();
-        let total: f64 = surface.vertex_areas.iter().sum();
-        let weighted = found.iter().zip(&surface.vertex_areas);
-        let asymmetry = weighted.map(|((d, _), a)| d * a).sum::<f64>() / total;
-        let plane = refit(surface, &found).unwrap_or(plane);
-        let mirror = Isometry::mirror(&plane);
-        let mut targets = vec![Vector::zeros(); found.len()];
-        let mut confidence = vec![0.0; found.len()];
-        for (v, (_, partner)) in found.iter().enumerate() {
-            if let Some(q) = partner {
-                let n = surface.vertex_normals[v];
-                let (d_p, _) = displacements(&surface.positions[v], &q.point, &mirror);
-                targets[v] = n * n.dot(&d_p);
-                confidence[v] = q.confidence;
-            }
-        }
-        Self {
-            targets,
-            confidence,
-            plane,
-            asymmetry,
-        }
+/// The stiffness of the nearest face of `surface` at each face of `control`.
+fn stiffness_on(control: &Surface, surface: &Surface, stiffness: &[f64]) -> Vec<f64> {
+    if control.triangles.len() == surface.triangles.len() {
+        return stiffness.to_vec();
     }
-}
-
-/// Appendix A over all vertices and their partners.
-fn refit(surface: &Surface, found: &[(f64, Option<Partner>)]) -> Option<Plane> {
-    let pairs: Vec<Correspondence> = found
-        .iter()
-        .enumerate()
-        .filter_map(|(v, (_, partner))| {
-            partner.as_ref().map(|q| Correspondence {
-                p: surface.positions[v],
-                q: q.point,
-                weight: q.confidence * surface.vertex_areas[v],
-            })
-        })
-        .collect();
-    optimal_mirror(&pairs, Ambient::Space).map(|fit| fit.plane)
-}
-
-/// The distance of the mirror image of vertex `v` from the surface, and its partner there where the
-/// contact means something.
-fn partner(
-    surface: &Surface,
-    closest: &ClosestPoint,
-    mirror: &Isometry,
-    v: usize,
-) -> (f64, Option<Partner>) {
-    let image = mirror.apply(&surface.positions[v]);
-    let normal = mirror.rotate(&surface.vertex_normals[v]);
-    let nearest = closest.nearest(&image, f64::INFINITY);
-    let distance = nearest.map_or(0.0, |hit| hit.distance);
-    let facing = |hit: &Hit| surface.face_normals[hit.at.face as usize].dot(&normal);
-    let hit = match nearest {
-        Some(hit) if facing(&hit) >= MIN_COS => Some(hit),
-        _ => closest.nearest_facing(&image, &normal, MIN_COS, REACH),
+    let closest = ClosestPoint::new(surface);
+    let at = |f: u32| {
+        let [a, b, c] = control.corners(f);
+        let center = Point::from((a.coords + b.coords + c.coords) / 3.0);
+        let hit = closest.nearest_facing(&center, &control.face_normals[f as usize], 0.0, 1.0);
+        hit.map_or(1.0, |hit| stiffness[hit.at.face as usize])
     };
-    let partner = hit.filter(|hit| hit.distance < REACH).and_then(|hit| {
-        let away = image - hit.point;
-        // Sideways contact means the image lies beyond a boundary or a fold.
-        if away.dot(&normal).abs() < 0.5 * hit.distance && hit.distance > 1e-3 {
-            return None;
-        }
-        let near = 1.0 - (hit.distance / REACH).powi(2);
-        let mutual = mutual(surface, closest, mirror, v, &hit);
-        Some(Partner {
-            point: curved(surface, &hit),
-            confidence: facing(&hit).powi(2) * near * near * mutual,
-        })
-    });
-    (distance, partner)
+    (0..control.triangles.len() as u32).map(at).collect()
 }
 
-/// 1 where the partner's own closest point is vertex `v` again, 0 where it is elsewhere: a finger that
-/// is drawn to its neighbour's image is not drawn back.
-fn mutual(
-    surface: &Surface,
-    closest: &ClosestPoint,
-    mirror: &Isometry,
-    v: usize,
-    hit: &Hit,
-) -> f64 {
-    let x = &surface.positions[v];
-    let normal = mirror.rotate(&surface.normal(&hit.at));
-    let back = closest.nearest_facing(&mirror.apply(&hit.point), &normal, MIN_COS, REACH);
-    back.map_or(0.0, |back| {
-        let missed = (back.point - x).norm() / (hit.distance + 0.01);
-        let s = (1.0 - missed).clamp(0.0, 1.0);
-        1.0 - (1.0 - s).powi(4)
-    })
+/// How far the rounds have come.
+struct Rounds<'a> {
+    params: &'a OptimizeParams,
+    goal: f64,
+    done: usize,
+    /// Smoothing length of the next round.
+    lambda: f64,
+    plane: Plane,
+    /// Mean asymmetry before the first and after the last round.
+    asymmetry: Option<[f64; 2]>,
+    finished: bool,
 }
 
-/// Partners face the mirrored normal at least this well.
-const MIN_COS: f64 = 0.2;
-
-/// The hit moved from the flat triangle to the curved surface that its vertex normals suggest.
-///
-/// Vertices lie on the shape but faces cut below it where it is convex; taken as they are, closest
-/// points would draw every vertex inwards a little each round. Phong tessellation (Boubekeur and Alexa
-/// 2008) with shape factor 1/2 lifts a chord to its arc exactly to second order. Creases are left flat.
-fn curved(surface: &Surface, hit: &Hit) -> Point {
-    let corners = surface.triangles[hit.at.face as usize];
-    let face_normal = surface.face_normals[hit.at.face as usize];
-    let mut lifted = Vector::zeros();
-    for (&v, b) in corners.iter().zip(hit.at.bary) {
-        let n = surface.vertex_normals[v as usize];
-        if n.dot(&face_normal) < SMOOTH_COS {
-            return hit.point;
+impl<'a> Rounds<'a> {
+    fn new(params: &'a OptimizeParams, goal: f64, plane: Plane) -> Self {
+        Self {
+            params,
+            goal,
+            done: 0,
+            lambda: params.finish_lengths[0],
+            plane,
+            asymmetry: None,
+            finished: false,
         }
-        lifted -= b * n.dot(&(hit.point - surface.positions[v as usize])) * n;
     }
-    hit.point + 0.5 * lifted
+
+    /// Whether there are rounds left of lengths of at least `until`.
+    fn wanted(&self, until: f64) -> bool {
+        !self.finished && self.done < self.params.finish_rounds && self.lambda >= until
+    }
+
+    fn note(&mut self, aim: &Aim) {
+        let before = self.asymmetry.map_or(aim.asymmetry, |a| a[0]);
+        self.asymmetry = Some([before, aim.asymmetry]);
+        self.plane = aim.plane;
+    }
+
+    /// Rounds of ever shorter lengths down to `until`.
+    fn run(&mut self, cloth: &mut Cloth, until: f64, ctx: &mut Context<'_>) -> Result<()> {
+        self.note(&cloth.aim);
+        while self.wanted(until) {
+            ctx.progress(self.done as f64 / self.params.finish_rounds as f64)?;
+            self.round(cloth).map_err(failure)?;
+            self.note(&cloth.aim);
+        }
+        Ok(())
+    }
+
+    fn round(&mut self, cloth: &mut Cloth) -> std::result::Result<(), SolveError> {
+        let shortest = self.params.finish_lengths[1];
+        let settled = self.done + 1 >= COARSE_ROUNDS;
+        let moves = cloth.moves(self.lambda)?;
+        let (next, aim) = cloth.moved(&moves, 1.0);
+        let [was, asymmetry] = [cloth.aim.asymmetry, aim.asymmetry];
+        let reached = settled && asymmetry <= self.goal;
+        if self.done < COARSE_ROUNDS || asymmetry <= STALLED * was {
+            (cloth.now, cloth.aim) = if reached && was > self.goal {
+                // No further than the goal: the part of the round that takes it there.
+                cloth.moved(&moves, (was - self.goal) / (was - asymmetry))
+            } else {
+                (next, aim)
+            };
+        } else if self.lambda <= shortest {
+            self.finished = true;
+        }
+        // Where nothing was to be gained at this length, the next is tried without having taken the round.
+        self.done += 1;
+        self.lambda = (self.lambda * REFINE).max(shortest);
+        self.finished |= reached;
+        Ok(())
+    }
 }
 
-/// Vertex normals that lean further than 35 degrees from the face mark a crease.
-const SMOOTH_COS: f64 = 0.82;
+/// The surface as it is drawn, round by round.
+struct Cloth {
+    field: SmoothField,
+    now: Surface,
+    closest: ClosestPoint,
+    aim: Aim,
+}
+
+impl Cloth {
+    fn new(
+        surface: &Surface,
+        stiffness: Option<&[f64]>,
+        plane: Plane,
+    ) -> std::result::Result<Self, SolveError> {
+        let closest = ClosestPoint::new(surface);
+        Ok(Self {
+            field: SmoothField::new(surface, stiffness)?,
+            now: surface.clone(),
+            aim: Aim::at(surface, plane, &closest),
+            closest,
+        })
+    }
+
+    /// The displacements of a round of smoothing length `lambda`.
+    fn moves(&mut self, lambda: f64) -> std::result::Result<Vec<Vector>, SolveError> {
+        self.field
+            .solve(&self.aim.targets, &self.aim.confidence, lambda)
+    }
+
+    /// With `fraction` of the displacements `moves`.
+    fn moved(&mut self, moves: &[Vector], fraction: f64) -> (Surface, Aim) {
+        let moved = self.now.positions.iter().zip(moves);
+        let moved = moved.map(|(x, u)| x + u * fraction).collect();
+        let next = self.now.with_positions(moved);
+        self.closest.follow(&next);
+        let aim = Aim::at(&next, self.aim.plane, &self.closest);
+        (next, aim)
+    }
+}
+
+fn failure(_: SolveError) -> Error {
+    Error::Numerical {
+        stage: "finish",
+        step: 0,
+        what: "the smoothing system could not be solved".into(),
+    }
+}

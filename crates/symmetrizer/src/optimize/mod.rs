@@ -1,5 +1,6 @@
 //! Section 4: samples glide, clusters contract, clusters merge, the rest follows.
 
+mod aim;
 pub mod contract;
 pub mod finish;
 pub mod glide;

@@ -34,6 +34,8 @@ pub struct Moving<'a> {
     pub length: f64,
     /// Time step dt.
     pub step: f64,
+    /// Closest points of the rest surface; those of later states follow it.
+    pub closest: ClosestPoint,
 }
 
 /// The surface as it is now, ready for closest-point queries.
@@ -69,8 +71,10 @@ impl Moving<'_> {
             s.position = surface.point(&s.at);
             s.normal = surface.normal(&s.at);
         }
+        let mut closest = self.closest.clone();
+        closest.follow(&surface);
         Snapshot {
-            closest: ClosestPoint::new(&surface),
+            closest,
             surface,
             samples,
         }

@@ -15,7 +15,7 @@ use crate::optimize::moving::Moving;
 use crate::optimize::params::OptimizeParams;
 use crate::patch::{Symmetry, carry_ids};
 use crate::sample::Samples;
-use crate::shape::Surface;
+use crate::shape::{ClosestPoint, Surface};
 use crate::transform::{Isometry, Plane};
 
 /// How a run ended.
@@ -167,6 +167,7 @@ pub fn optimize(
         samples: detection.samples.clone(),
         length: settings.deform.length,
         step: settings.optimize.step,
+        closest: ClosestPoint::new(surface),
         deformer: deformer.as_mut(),
     };
     Schedule {
@@ -270,7 +271,9 @@ impl Schedule<'_> {
             let now = self.moving.deformer.rest().with_positions(positions);
             let params = self.settings.optimize;
             let goal = params.finish_asymmetry.min(FINISH_SHARE * asymmetry_before);
-            let done = ctx.stage("finish", |ctx| finish(now, plane, goal, self.settings, ctx))?;
+            let done = ctx.stage("finish", |ctx| {
+                finish(&now, plane, goal, self.settings, ctx)
+            })?;
             self.steps.push(Step::Finish {
                 rounds: done.rounds,
                 asymmetry: done.asymmetry,

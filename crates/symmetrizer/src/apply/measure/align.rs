@@ -4,7 +4,7 @@
 //! The letters: p, q corresponding points, w their weights, ~ about the weighted means;
 //! H = sum w p~ q~^T = U S V^T, R = V diag(1, 1, det(V U^T)) U^T, so that R p ~ q.
 
-use crate::geom::{Matrix3, Point, Vector};
+use crate::geom::{Matrix3, Point, Vector, nearest_orthogonal};
 
 /// `p` moved rigidly (no reflection, no scale) as near to `q` as it gets in the weighted rms.
 pub(super) fn align_rigidly(p: &[Point], q: &[Point], w: &[f64]) -> Vec<Point> {
@@ -18,18 +18,6 @@ pub(super) fn align_rigidly(p: &[Point], q: &[Point], w: &[f64]) -> Vec<Point> {
     for ((p, q), w) in p.iter().zip(q).zip(w) {
         h += (p - p_mean) * (q - q_mean).transpose() * *w;
     }
-    let r = best_rotation(&h);
+    let r = nearest_orthogonal(&h.transpose(), false);
     p.iter().map(|p| q_mean + r * (p - p_mean)).collect()
-}
-
-/// The rotation R that maximises tr(R H): the determinant keeps it from being a reflection.
-pub(super) fn best_rotation(h: &Matrix3) -> Matrix3 {
-    let svd = h.svd(true, true);
-    let (Some(u), Some(v_t)) = (svd.u, svd.v_t) else {
-        return Matrix3::identity();
-    };
-    // The sign goes to the smallest singular value, wherever the solver put it.
-    let mut sign = Vector::repeat(1.0);
-    sign[svd.singular_values.imin()] = (v_t.determinant() * u.determinant()).signum();
-    v_t.transpose() * Matrix3::from_diagonal(&sign) * u.transpose()
 }

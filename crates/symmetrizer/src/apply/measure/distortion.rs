@@ -3,11 +3,11 @@
 //! Everything compares two states of the same triangles, `before` and `after`, in the same
 //! coordinates (the working coordinates of `before`).
 
-use crate::apply::measure::align::{align_rigidly, best_rotation};
+use crate::apply::measure::align::align_rigidly;
 use crate::apply::measure::curvature::curvature_correlation;
 use crate::apply::measure::percentile;
 use crate::apply::measure::volume::volume;
-use crate::geom::{Matrix3, Point, Vector};
+use crate::geom::{Matrix3, Point, Vector, nearest_orthogonal};
 use crate::shape::Surface;
 use crate::shape::crossings::{crossing_faces, new_crossings};
 
@@ -123,7 +123,7 @@ pub fn inverted_faces(before: &Surface, after: &Surface) -> Vec<u32> {
     let turned_over = |&f: &u32| {
         let corners = before.triangles[f as usize];
         let h: Matrix3 = corners.iter().map(|&v| around[v as usize]).sum();
-        let expected = best_rotation(&h) * before.face_normals[f as usize];
+        let expected = nearest_orthogonal(&h.transpose(), false) * before.face_normals[f as usize];
         expected.dot(&after.face_normals[f as usize]) < 0.0
     };
     (0..before.triangles.len() as u32)

@@ -9,7 +9,8 @@
 pub mod rod;
 
 use crate::deform::bridges::bridges;
-use crate::deform::elastic::{Binding, Body, Elements};
+use crate::deform::control::control_mesh;
+use crate::deform::elastic::{Binding, Body, Elements, Sites};
 use crate::deform::failure;
 use crate::deform::laplacian::edge_weights;
 use crate::deform::params::DeformParams;
@@ -27,14 +28,20 @@ const MEMBRANE: f64 = 2.0 / 3.0;
 const BRIDGE: f64 = 0.1;
 
 impl Arap {
-    /// Rods along the edges of `rest`.
+    /// Rods along the edges of a control mesh of `rest`.
     ///
     /// # Errors
     /// [`crate::Error::Params`] for lengths that are not positive, [`crate::Error::Numerical`].
     pub fn new(rest: &Surface, params: &DeformParams) -> Result<Self> {
         params.check()?;
-        let weights = edge_weights(rest, None);
-        let ties = bridges(&rest.positions, weights.keys().map(|&(u, v)| [u, v]));
+        let control = control_mesh(rest, params.control_faces)?;
+        let binding = if control.triangles.len() == rest.triangles.len() {
+            Binding::own(rest)
+        } else {
+            Binding::within_reach(rest, &control, &Sites::vertices(&control))
+        };
+        let weights = edge_weights(&control, None);
+        let ties = bridges(&control.positions, weights.keys().map(|&(u, v)| [u, v]));
         let ties = ties.iter().map(|&[i, j]| ((i, j), BRIDGE));
         let rods = weights.into_iter().chain(ties).map(|((i, j), k)| Rod {
             i: i as usize,
@@ -42,7 +49,7 @@ impl Arap {
             weight: MEMBRANE * k,
             smoothing: params.half_height * params.half_height / 6.0,
         });
-        let rods = Elements::new(&rest.positions, rods.collect()).map_err(|e| failure(e, 0))?;
-        Ok(Self::over(rest, Binding::own(rest), rods))
+        let rods = Elements::new(&control.positions, rods.collect()).map_err(|e| failure(e, 0))?;
+        Ok(Self::over(rest, binding, rods))
     }
 }

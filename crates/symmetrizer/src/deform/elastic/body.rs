@@ -144,13 +144,8 @@ impl<S: Spring> Deformer for Body<S> {
     }
 
     fn positions(&self) -> Vec<Point> {
-        (0..self.rest.positions.len())
-            .into_par_iter()
-            .map(|v| {
-                self.binding
-                    .place(v, &self.rest.positions[v], &self.elements.motions)
-            })
-            .collect()
+        self.binding
+            .places(&self.rest.positions, &self.elements.motions)
     }
 
     fn places(&self, at: &[SurfacePoint]) -> Vec<Point> {

@@ -1,13 +1,13 @@
 //! PriMo (Botsch, Pauly, Gross, Kobbelt 2006): rigid prisms over the faces of a surface, or of a control
 //! mesh that carries it, with elastic joints.
 
-pub mod cage;
 pub mod joint;
 
 use std::collections::BTreeMap;
 
 use crate::deform::bridges::bridges;
-use crate::deform::elastic::{Binding, Body, Elements};
+use crate::deform::control::control_mesh;
+use crate::deform::elastic::{Binding, Body, Elements, Sites};
 use crate::deform::failure;
 use crate::deform::params::DeformParams;
 use crate::deform::solver::SolveError;
@@ -34,11 +34,11 @@ impl Primo {
     /// [`crate::Error::Params`] for lengths that are not positive, [`crate::Error::Numerical`].
     pub fn new(rest: &Surface, params: &DeformParams) -> Result<Self> {
         params.check()?;
-        let control = cage::control_mesh(rest, params.control_faces)?;
+        let control = control_mesh(rest, params.control_faces)?;
         let binding = if control.triangles.len() == rest.triangles.len() {
             Binding::incident(rest)
         } else {
-            Binding::nearest(rest, &control)
+            Binding::within_reach(rest, &control, &Sites::faces(&control))
         };
         let prisms = prisms(&control, params.half_height).map_err(|e| failure(e, 0))?;
         Ok(Self::over(rest, binding, prisms))

@@ -4,7 +4,7 @@ use nalgebra::Matrix3;
 
 use super::layer::{Layer, NO_ROW, On, Role, Values};
 use super::{Document, Numbers};
-use crate::geom::{Point, Vector};
+use crate::geom::{Point, Vector, nearest_orthogonal};
 use crate::shape::mesh::Mesh;
 use crate::shape::working::Working;
 
@@ -80,7 +80,7 @@ impl Turns<'_> {
         covariance
             .iter()
             .all(|c| c.is_finite())
-            .then(|| rotation(&covariance))
+            .then(|| nearest_orthogonal(&covariance, false))
     }
 }
 
@@ -103,21 +103,9 @@ fn turns(working: &Working, positions: &[Point]) -> Vec<Option<Matrix3<f64>>> {
         }
     }
     let fitted = covariance.iter().zip(moved);
-    fitted.map(|(c, m)| m.then(|| rotation(c))).collect()
-}
-
-/// The rotation R that maximises tr(R^T C): the polar factor with determinant 1.
-fn rotation(covariance: &Matrix3<f64>) -> Matrix3<f64> {
-    let svd = covariance.svd(true, true);
-    let (Some(mut u), Some(v_t)) = (svd.u, svd.v_t) else {
-        return Matrix3::identity();
-    };
-    if (u * v_t).determinant() < 0.0 {
-        // The axis of least stretch: across the surface.
-        let least = svd.singular_values.imin();
-        u.column_mut(least).neg_mut();
-    }
-    u * v_t
+    fitted
+        .map(|(c, m)| m.then(|| nearest_orthogonal(c, false)))
+        .collect()
 }
 
 /// A normal no further than this from its face's own belongs to the face, cosine.

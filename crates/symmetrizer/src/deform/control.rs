@@ -1,4 +1,4 @@
-//! The control mesh: a few thousand prisms that carry a fine surface.
+//! The control mesh: a few thousand faces under the elements that carry a fine surface.
 
 use crate::error::{Error, Result};
 use crate::geom::{Matrix3, Point, sorted_eigen};

@@ -1,0 +1,153 @@
+//! What the finish aims at: for each vertex its partner under the mirror and the way to it.
+
+use rayon::prelude::*;
+
+use crate::geom::{Point, Vector};
+use crate::shape::{ClosestPoint, Hit, Surface};
+use crate::transform::{Ambient, Correspondence, Isometry, Plane, displacements, optimal_mirror};
+
+/// Closest points that draw a vertex lie within this distance, fraction of L.
+const REACH: f64 = 0.05;
+
+/// Where every vertex should go, and how asymmetric the surface is.
+pub(super) struct Aim {
+    /// Displacement along the normal (equation 1).
+    pub targets: Vec<Vector>,
+    /// Confidence in each, 0 for none.
+    pub confidence: Vec<f64>,
+    /// The mirror refitted to the pairs.
+    pub plane: Plane,
+    /// Area-weighted mean distance of the mirrored vertices from the surface.
+    pub asymmetry: f64,
+}
+
+/// A vertex's partner.
+struct Partner {
+    point: Point,
+    confidence: f64,
+}
+
+impl Aim {
+    /// Of `surface` under `plane`, `closest` its closest points.
+    pub fn at(surface: &Surface, plane: Plane, closest: &ClosestPoint) -> Self {
+        let mirror = Isometry::mirror(&plane);
+        let found: Vec<(f64, Option<Partner>)> = (0..surface.positions.len())
+            .into_par_iter()
+            .map(|v| partner(surface, closest, &mirror, v))
+            .collect();
+        let total: f64 = surface.vertex_areas.iter().sum();
+        let weighted = found.iter().zip(&surface.vertex_areas);
+        let asymmetry = weighted.map(|((d, _), a)| d * a).sum::<f64>() / total;
+        let plane = refit(surface, &found).unwrap_or(plane);
+        let mirror = Isometry::mirror(&plane);
+        let mut targets = vec![Vector::zeros(); found.len()];
+        let mut confidence = vec![0.0; found.len()];
+        for (v, (_, partner)) in found.iter().enumerate() {
+            if let Some(q) = partner {
+                let n = surface.vertex_normals[v];
+                let (d_p, _) = displacements(&surface.positions[v], &q.point, &mirror);
+                targets[v] = n * n.dot(&d_p);
+                confidence[v] = q.confidence;
+            }
+        }
+        Self {
+            targets,
+            confidence,
+            plane,
+            asymmetry,
+        }
+    }
+}
+
+/// Appendix A over all vertices and their partners.
+fn refit(surface: &Surface, found: &[(f64, Option<Partner>)]) -> Option<Plane> {
+    let pairs: Vec<Correspondence> = found
+        .iter()
+        .enumerate()
+        .filter_map(|(v, (_, partner))| {
+            partner.as_ref().map(|q| Correspondence {
+                p: surface.positions[v],
+                q: q.point,
+                weight: q.confidence * surface.vertex_areas[v],
+            })
+        })
+        .collect();
+    optimal_mirror(&pairs, Ambient::Space).map(|fit| fit.plane)
+}
+
+/// The distance of the mirror image of vertex `v` from the surface, and its partner there where the
+/// contact means something.
+fn partner(
+    surface: &Surface,
+    closest: &ClosestPoint,
+    mirror: &Isometry,
+    v: usize,
+) -> (f64, Option<Partner>) {
+    let image = mirror.apply(&surface.positions[v]);
+    let normal = mirror.rotate(&surface.vertex_normals[v]);
+    let nearest = closest.nearest(&image, f64::INFINITY);
+    let distance = nearest.map_or(0.0, |hit| hit.distance);
+    let facing = |hit: &Hit| surface.face_normals[hit.at.face as usize].dot(&normal);
+    let hit = match nearest {
+        Some(hit) if facing(&hit) >= MIN_COS => Some(hit),
+        _ => closest.nearest_facing(&image, &normal, MIN_COS, REACH),
+    };
+    let partner = hit.filter(|hit| hit.distance < REACH).and_then(|hit| {
+        let away = image - hit.point;
+        // Sideways contact means the image lies beyond a boundary or a fold.
+        if away.dot(&normal).abs() < 0.5 * hit.distance && hit.distance > 1e-3 {
+            return None;
+        }
+        let near = 1.0 - (hit.distance / REACH).powi(2);
+        let mutual = mutual(surface, closest, mirror, v, &hit);
+        Some(Partner {
+            point: curved(surface, &hit),
+            confidence: facing(&hit).powi(2) * near * near * mutual,
+        })
+    });
+    (distance, partner)
+}
+
+/// 1 where the partner's own closest point is vertex `v` again, 0 where it is elsewhere: a finger that
+/// is drawn to its neighbour's image is not drawn back.
+fn mutual(
+    surface: &Surface,
+    closest: &ClosestPoint,
+    mirror: &Isometry,
+    v: usize,
+    hit: &Hit,
+) -> f64 {
+    let x = &surface.positions[v];
+    let normal = mirror.rotate(&surface.normal(&hit.at));
+    let back = closest.nearest_facing(&mirror.apply(&hit.point), &normal, MIN_COS, REACH);
+    back.map_or(0.0, |back| {
+        let missed = (back.point - x).norm() / (hit.distance + 0.01);
+        let s = (1.0 - missed).clamp(0.0, 1.0);
+        1.0 - (1.0 - s).powi(4)
+    })
+}
+
+/// Partners face the mirrored normal at least this well.
+const MIN_COS: f64 = 0.2;
+
+/// The hit moved from the flat triangle to the curved surface that its vertex normals suggest.
+///
+/// Vertices lie on the shape but faces cut below it where it is convex; taken as they are, closest
+/// points would draw every vertex inwards a little each round. Phong tessellation (Boubekeur and Alexa
+/// 2008) with shape factor 1/2 lifts a chord to its arc exactly to second order. Creases are left flat.
+fn curved(surface: &Surface, hit: &Hit) -> Point {
+    let corners = surface.triangles[hit.at.face as usize];
+    let face_normal = surface.face_normals[hit.at.face as usize];
+    let mut lifted = Vector::zeros();
+    for (&v, b) in corners.iter().zip(hit.at.bary) {
+        let n = surface.vertex_normals[v as usize];
+        if n.dot(&face_normal) < SMOOTH_COS {
+            return hit.point;
+        }
+        lifted -= b * n.dot(&(hit.point - surface.positions[v as usize])) * n;
+    }
+    hit.point + 0.5 * lifted
+}
+
+/// Vertex normals that lean further than 35 degrees from the face mark a crease.
+const SMOOTH_COS: f64 = 0.82;
