@@ -10,8 +10,33 @@ use crate::shape::Surface;
 /// # Errors
 /// [`Error::Numerical`] where decimation leaves nothing.
 pub fn control_mesh(surface: &Surface, faces: usize) -> Result<Surface> {
+    Ok(decimated(surface, faces)?.map_or_else(|| surface.clone(), |d| d.surface))
+}
+
+/// A surface of fewer faces.
+pub struct Decimated {
+    /// The surface.
+    pub surface: Surface,
+    /// Which vertex of the finer surface each of its vertices is.
+    pub vertices: Vec<u32>,
+}
+
+impl Decimated {
+    /// The same faces over the vertices of the finer surface where they are in `finer`.
+    pub fn following(&self, finer: &Surface) -> Surface {
+        let at = |&v: &u32| finer.positions[v as usize];
+        self.surface
+            .with_positions(self.vertices.iter().map(at).collect())
+    }
+}
+
+/// [`control_mesh`]; `None` where the surface is to be its own.
+///
+/// # Errors
+/// [`Error::Numerical`] where decimation leaves nothing.
+pub fn decimated(surface: &Surface, faces: usize) -> Result<Option<Decimated>> {
     if surface.triangles.len() <= faces + faces / 2 {
-        return Ok(surface.clone());
+        return Ok(None);
     }
     // The decimator works in single precision: in the shape's own axes it rounds alike however the
     // shape is turned.
@@ -31,14 +56,14 @@ pub fn control_mesh(surface: &Surface, faces: usize) -> Result<Surface> {
         None,
     );
     let mut map = vec![u32::MAX; surface.positions.len()];
-    let mut used: Vec<Point> = Vec::new();
+    let mut vertices: Vec<u32> = Vec::new();
     let mut triangles = Vec::with_capacity(kept.len() / 3);
     for corner in kept.chunks_exact(3) {
         let t: [u32; 3] = std::array::from_fn(|k| {
             let v = corner[k] as usize;
             if map[v] == u32::MAX {
-                map[v] = used.len() as u32;
-                used.push(surface.positions[v]);
+                map[v] = vertices.len() as u32;
+                vertices.push(v as u32);
             }
             map[v]
         });
@@ -51,7 +76,14 @@ pub fn control_mesh(surface: &Surface, faces: usize) -> Result<Surface> {
             what: "decimation left no faces".into(),
         });
     }
-    Ok(Surface::new(used, triangles.into()))
+    let positions: Vec<Point> = vertices
+        .iter()
+        .map(|&v| surface.positions[v as usize])
+        .collect();
+    Ok(Some(Decimated {
+        surface: Surface::new(positions, triangles.into()),
+        vertices,
+    }))
 }
 
 /// The principal axes of the surface's area as orthonormal columns; their signs go by the third

@@ -7,6 +7,7 @@ pub mod glide;
 pub mod merge;
 pub mod moving;
 pub mod params;
+mod rounds;
 pub mod schedule;
 pub mod untangle;
 

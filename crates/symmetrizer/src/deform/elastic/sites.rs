@@ -55,26 +55,17 @@ impl Sites {
             let usual = around(control, &faces[f]);
             for &v in corners {
                 let x = control.positions[v as usize];
-                let center = control.corners(f as u32);
-                let farthest = center.iter().map(|y| (y - x).norm()).fold(0.0, f64::max);
+                let farthest = control.corners(f as u32);
+                let farthest = farthest.iter().map(|y| (y - x).norm()).fold(0.0, f64::max);
                 // Half way along the longest edge its ends still have their say.
                 let own = usual.max(0.5 * BEYOND * farthest);
                 reach[v as usize] = reach[v as usize].max(own);
             }
         }
-        let corners_of = |faces: &Vec<u32>| {
-            let mut corners: Vec<u32> = faces
-                .iter()
-                .flat_map(|&f| control.triangles[f as usize])
-                .collect();
-            corners.sort_unstable();
-            corners.dedup();
-            corners
-        };
         Self {
             centers: control.positions.clone(),
             reach,
-            near: faces.par_iter().map(corners_of).collect(),
+            near: faces.par_iter().map(|f| corners(control, f)).collect(),
         }
     }
 
@@ -138,18 +129,27 @@ fn two_rings(surface: &Surface) -> Vec<Vec<u32>> {
             at_vertex[v as usize].push(f as u32);
         }
     }
-    let grow = |faces: &[u32]| {
-        let mut out: Vec<u32> = faces
-            .iter()
-            .flat_map(|&f| surface.triangles[f as usize])
-            .flat_map(|v| at_vertex[v as usize].iter().copied())
-            .collect();
-        out.sort_unstable();
-        out.dedup();
-        out
+    let faces_at = |vertices: &[u32]| -> Vec<u32> {
+        let faces = vertices.iter().flat_map(|&v| &at_vertex[v as usize]);
+        unique(faces.copied())
     };
-    (0..surface.triangles.len() as u32)
+    (0..surface.triangles.len())
         .into_par_iter()
-        .map(|f| grow(&grow(&[f])))
+        .map(|f| {
+            let ring = faces_at(&surface.triangles[f]);
+            faces_at(&corners(surface, &ring))
+        })
         .collect()
+}
+
+/// The corners of these faces.
+fn corners(surface: &Surface, faces: &[u32]) -> Vec<u32> {
+    unique(faces.iter().flat_map(|&f| surface.triangles[f as usize]))
+}
+
+fn unique(of: impl Iterator<Item = u32>) -> Vec<u32> {
+    let mut list: Vec<u32> = of.collect();
+    list.sort_unstable();
+    list.dedup();
+    list
 }
