@@ -5,6 +5,7 @@ use crate::error::Result;
 use crate::geom::{Point, Vector};
 use crate::optimize::moving::{Couple, Moving, fit_mirror, guided_couples};
 use crate::optimize::params::OptimizeParams;
+use crate::patch::ground::touch;
 use crate::patch::{PatchParams, Symmetry};
 use crate::transform::displacement::carry;
 use crate::transform::{
@@ -28,6 +29,12 @@ pub struct Merged {
 
 /// Near the energy limit steps are halved down to this part of the time step.
 const SMALLEST_STEP: f64 = 16.0;
+
+/// A place is missed by no more than this, fraction of L, by points that face its way to within this cosine.
+const FAR: f64 = 0.08;
+const MIN_COS: f64 = 0.3;
+/// How often what is missed is averaged among neighbours: a part hangs together.
+const AVERAGED: usize = 4;
 
 /// One of the two parts: its couples and the samples they came from.
 struct Part {
@@ -62,16 +69,19 @@ pub fn ownership(a: &Symmetry, b: &Symmetry, count: usize) -> [Vec<bool>; 2] {
 /// As [`crate::deform::Deformer::deform`].
 pub fn merge(
     moving: &mut Moving<'_>,
-    [a, b]: [(&Symmetry, Vec<bool>); 2],
+    [a, b]: [&Symmetry; 2],
     patch: &PatchParams,
     params: &OptimizeParams,
     ctx: &mut Context<'_>,
 ) -> Result<Merged> {
-    let mut parts = [a, b].map(|(s, member)| Part {
+    let planes = [a.plane(), b.plane()];
+    let [member_a, member_b] = territories(moving, planes);
+    let part = |plane, member| Part {
         couples: Vec::new(),
         member,
-        plane: s.plane(),
-    });
+        plane,
+    };
+    let mut parts = [part(planes[0], member_a), part(planes[1], member_b)];
     let mut done = Merged {
         plane: parts[0].plane,
         steps: 0,
@@ -107,6 +117,32 @@ pub fn merge(
     }
     moving.step = dt;
     Ok(done)
+}
+
+/// The samples of each of two parts: those around which its mirror holds better than the other's, whether in a
+/// patch or not. Patches overlap on what is round and leave out what one of them barely misses (the
+/// bunny's snout), which would then be left behind.
+fn territories(moving: &Moving<'_>, planes: [Plane; 2]) -> [Vec<bool>; 2] {
+    let snapshot = moving.snapshot();
+    let neighbors = &snapshot.samples.neighbors;
+    let [a, b] = planes.map(|plane| {
+        let touched = touch(&snapshot.ground(), &Isometry::mirror(&plane), FAR, MIN_COS);
+        let missed = touched
+            .iter()
+            .map(|hit| hit.map_or(FAR, |hit| hit.residual));
+        (0..AVERAGED).fold(missed.collect(), |missed, _| averaged(&missed, neighbors))
+    });
+    let nearer = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a < b).collect();
+    [nearer(&a, &b), nearer(&b, &a)]
+}
+
+/// Each value's mean with those of its neighbours.
+fn averaged(values: &Vec<f64>, neighbors: &[Vec<u32>]) -> Vec<f64> {
+    let mean = |(value, near): (&f64, &Vec<u32>)| {
+        let sum: f64 = near.iter().map(|&i| values[i as usize]).sum();
+        (value + sum) / (1 + near.len()) as f64
+    };
+    values.iter().zip(neighbors).map(mean).collect()
 }
 
 /// Pairs each part anew under its own mirror.

@@ -200,7 +200,7 @@ fn worthwhile(found: &[Symmetry], settings: Settings<'_>, count: usize) -> Vec<S
     let mut kept: Vec<Symmetry> = Vec::new();
     for s in ordered {
         let conflict = |k: &Symmetry| {
-            shared(k, s, count) > MAX_SHARED && mergeable(k, s, settings.optimize, count).is_none()
+            shared(k, s, count) > MAX_SHARED && !mergeable(k, s, settings.optimize, count)
         };
         if !kept.iter().any(conflict) {
             kept.push(s.clone());
@@ -224,23 +224,16 @@ fn shared(a: &Symmetry, b: &Symmetry, count: usize) -> f64 {
     both as f64 / a.pairs.len().min(b.pairs.len()).max(1) as f64
 }
 
-/// The samples that speak for each of two symmetries alone, if the two may be merged: mirrors not too
-/// far apart in angle, and enough ground of their own.
-fn mergeable(
-    s: &Symmetry,
-    t: &Symmetry,
-    params: &OptimizeParams,
-    count: usize,
-) -> Option<[Vec<bool>; 2]> {
+/// Whether two symmetries may be merged: mirrors not too far apart in angle, and enough ground of their own.
+fn mergeable(s: &Symmetry, t: &Symmetry, params: &OptimizeParams, count: usize) -> bool {
     if s.plane().normal.dot(&t.plane().normal).abs() < params.merge_angle.to_radians().cos() {
-        return None;
+        return false;
     }
     let owned = ownership(s, t, count);
-    let large = [s, t].iter().zip(&owned).all(|(s, own)| {
+    [s, t].iter().zip(&owned).all(|(s, own)| {
         let kept = own.iter().filter(|o| **o).count();
         2 * kept > s.pairs.len()
-    });
-    large.then_some(owned)
+    })
 }
 
 struct Schedule<'a> {
@@ -340,22 +333,15 @@ impl Schedule<'_> {
     /// again, and a merge that gained no ground is undone.
     fn merge_all(&mut self, ctx: &mut Context<'_>) -> Result<()> {
         for _ in 0..MERGES {
-            let Some((i, j, owned)) = self.next_merge() else {
+            let Some((i, j)) = self.next_merge() else {
                 break;
             };
             let before = self.moving.deformer.state();
             let covered = coverage(&self.symmetries);
-            let [a, b] = owned;
             let (s, t) = (&self.symmetries[i], &self.symmetries[j]);
             let ids = [s.id, t.id];
             let patch = &self.settings.detect.patch;
-            let done = merge(
-                &mut self.moving,
-                [(s, a), (t, b)],
-                patch,
-                self.settings.optimize,
-                ctx,
-            )?;
+            let done = merge(&mut self.moving, [s, t], patch, self.settings.optimize, ctx)?;
             let (samples, found) = self.detect_again(ctx)?;
             // At the energy limit the merge stays as far as it came.
             let kept = done.limited || coverage(&found) > covered + MIN_GAIN;
@@ -386,30 +372,30 @@ impl Schedule<'_> {
         Ok(())
     }
 
-    /// The nearest two symmetries that may be merged, with the samples that speak for each alone.
-    fn next_merge(&self) -> Option<(usize, usize, [Vec<bool>; 2])> {
+    /// The nearest two symmetries that may be merged.
+    fn next_merge(&self) -> Option<(usize, usize)> {
         let count = self.moving.samples.list.len();
         let space = crate::transform::TransformSpace::new(
             self.moving.samples.list.iter().map(|s| (s.position, 1.0)),
         );
-        let mut best: Option<(f64, usize, usize, [Vec<bool>; 2])> = None;
+        let mut best: Option<(f64, usize, usize)> = None;
         for i in 0..self.symmetries.len() {
             for j in i + 1..self.symmetries.len() {
                 let (s, t) = (&self.symmetries[i], &self.symmetries[j]);
                 if self.failed.contains(&[s.id, t.id]) {
                     continue;
                 }
-                let Some(owned) = mergeable(s, t, self.settings.optimize, count) else {
+                if !mergeable(s, t, self.settings.optimize, count) {
                     continue;
-                };
+                }
                 let mirrors = (s.q_from_p, t.q_from_p);
                 let distance = space.distance(&mirrors.0, &mirrors.1);
                 if best.as_ref().is_none_or(|b| distance < b.0) {
-                    best = Some((distance, i, j, owned));
+                    best = Some((distance, i, j));
                 }
             }
         }
-        best.map(|(_, i, j, owned)| (i, j, owned))
+        best.map(|(_, i, j)| (i, j))
     }
 
     /// Detection on the shape as it is now; what was known keeps its id.

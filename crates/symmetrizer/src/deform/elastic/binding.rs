@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::deform::elastic::motion::Motion;
-use crate::deform::elastic::sites::Sites;
+use crate::deform::elastic::sites::{Sites, balance, face_centers};
 use crate::geom::{Point, Vector};
 use crate::shape::{ClosestPoint, Surface};
 
@@ -19,14 +19,20 @@ pub struct Binding {
 const FACING: (f64, f64) = (0.2, 0.2);
 
 impl Binding {
-    /// Binds a surface to prisms over its own faces: each vertex to its incident ones by area.
+    /// Binds a surface to prisms over its own faces: each vertex to its incident ones, the nearer their
+    /// centres the more, balanced. By area alone, uneven triangles would tear at the lengths of edges
+    /// (99 % of a bent bar's stretched by up to .41 instead of .31).
     pub fn incident(surface: &Surface) -> Self {
+        let centers = face_centers(surface);
         let mut weights: Vec<Vec<(u32, f64)>> = vec![Vec::new(); surface.positions.len()];
         for (f, corners) in surface.triangles.iter().enumerate() {
             for &v in corners {
-                let w = surface.face_areas[f].max(1e-12);
-                weights[v as usize].push((f as u32, w));
+                let away = (centers[f] - surface.positions[v as usize]).norm_squared();
+                weights[v as usize].push((f as u32, 1.0 / away.max(1e-18)));
             }
+        }
+        for (x, list) in surface.positions.iter().zip(&mut weights) {
+            balance(x, &centers, list);
         }
         Self::of_lists(weights)
     }

@@ -28,12 +28,7 @@ impl Sites {
     /// A site at the centre of each face.
     pub fn faces(control: &Surface) -> Self {
         let near = two_rings(control);
-        let centers: Vec<Point> = (0..control.triangles.len() as u32)
-            .map(|f| {
-                let [a, b, c] = control.corners(f);
-                Point::from((a.coords + b.coords + c.coords) / 3.0)
-            })
-            .collect();
+        let centers = face_centers(control);
         let reach = |(f, c): (usize, &Point)| {
             let corners = control.corners(f as u32);
             let farthest = corners.iter().map(|x| (x - c).norm()).fold(0.0, f64::max);
@@ -83,37 +78,46 @@ impl Sites {
             let nearest = near.iter().max_by(|&&a, &&b| left(a).total_cmp(&left(b)));
             return vec![(nearest.copied().unwrap_or(0), 1.0)];
         }
-        self.balance(x, &mut blended);
+        balance(x, &self.centers, &mut blended);
         blended
     }
+}
 
-    /// Tilts the weights by 1 + b . d, d from `x` to a site, so that their mean lies below `x`: motions that
-    /// vary linearly over the sites are then met exactly, stretch among them (Belytschko et al. 1994, moving
-    /// least squares). At a rim, where all sites lie on one side, the tilt ends where weights would turn
-    /// negative.
-    fn balance(&self, x: &Point, blended: &mut [(u32, f64)]) {
-        let (mut first, mut second, mut reach) = (Vector::zeros(), Matrix3::zeros(), 0.0_f64);
-        for &(s, w) in blended.iter() {
-            let d = self.centers[s as usize] - x;
-            first += w * d;
-            second += w * d * d.transpose();
-            reach = reach.max(d.norm());
-        }
-        // Across the surface sites hardly differ: nothing is to be balanced that way.
-        second += Matrix3::identity() * (ACROSS * second.trace() + f64::MIN_POSITIVE);
-        let Some(inverse) = second.try_inverse() else {
-            return;
-        };
-        let b: Vector = -inverse * first;
-        let b = b / (1.0 + (b.norm() * reach).powi(4)).powf(0.25);
-        for (s, w) in blended {
-            *w *= 1.0 + b.dot(&(self.centers[*s as usize] - x));
-        }
+/// Tilts the weights by 1 + b . d, d from `x` to a site, so that their mean lies below `x`: motions that
+/// vary linearly over the sites are then met exactly, stretch among them (Belytschko et al. 1994, moving
+/// least squares). At a rim, where all sites lie on one side, the tilt ends where weights would turn
+/// negative.
+pub(super) fn balance(x: &Point, centers: &[Point], weights: &mut [(u32, f64)]) {
+    let (mut first, mut second, mut reach) = (Vector::zeros(), Matrix3::zeros(), 0.0_f64);
+    for &(s, w) in weights.iter() {
+        let d = centers[s as usize] - x;
+        first += w * d;
+        second += w * d * d.transpose();
+        reach = reach.max(d.norm());
+    }
+    // Across the surface sites hardly differ: nothing is to be balanced that way.
+    second += Matrix3::identity() * (ACROSS * second.trace() + f64::MIN_POSITIVE);
+    let Some(inverse) = second.try_inverse() else {
+        return;
+    };
+    let b: Vector = -inverse * first;
+    let b = b / (1.0 + (b.norm() * reach).powi(4)).powf(0.25);
+    for (s, w) in weights {
+        *w *= 1.0 + b.dot(&(centers[*s as usize] - x));
     }
 }
 
 /// Share of the sites' spread below which a direction counts as across the surface.
 const ACROSS: f64 = 0.01;
+
+/// The centre of each face.
+pub(super) fn face_centers(surface: &Surface) -> Vec<Point> {
+    let center = |f: u32| {
+        let [a, b, c] = surface.corners(f);
+        Point::from((a.coords + b.coords + c.coords) / 3.0)
+    };
+    (0..surface.triangles.len() as u32).map(center).collect()
+}
 
 /// The usual reach among these faces.
 fn around(control: &Surface, faces: &[u32]) -> f64 {
