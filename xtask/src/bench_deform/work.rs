@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use rand::SeedableRng;
 use rand::seq::index;
 use rand_pcg::Pcg64;
+use symmetrizer::Result;
 use symmetrizer::deform::{DeformParams, Pull, primo::cage::control_mesh};
 use symmetrizer::geom::{Point, Vector, exp_rotation};
 use symmetrizer::shape::working::Working;
 use symmetrizer::shape::{Mesh, Surface};
-use symmetrizer::Result;
 
 use crate::constraints;
 

@@ -2,10 +2,10 @@
 
 use std::f64::consts::FRAC_PI_4;
 
+use symmetrizer::Result;
 use symmetrizer::geom::{Point, Vector};
 use symmetrizer::picture::View;
 use symmetrizer::shape::{Surface, io};
-use symmetrizer::Result;
 
 use super::exhibit::{Exhibit, Role, surface};
 use super::motion::Motion;
@@ -54,6 +54,7 @@ pub fn arm() -> Result<Exhibit> {
         },
         view: View::new(Vector::new(-0.5, -0.25, -1.0), Vector::y()),
         close: View::new(Vector::new(-0.9, 0.1, -0.6), Vector::y()),
+        look: "The folds of skin above and below the shoulder, which should neither be ironed out nor pinched.",
         line: None,
     })
 }

@@ -36,6 +36,8 @@ pub fn bend() -> Result<Exhibit> {
         handles: "An eighth of the bar is held at one end; an eighth at the other end is turned by 90° and set to \
                   where it would be if the middle line were a quarter of a circle of the same length.",
         close: View::new(Vector::new(-1.0, 0.8, -0.6), Vector::y()),
+        look: "The inside of the bend: a surface that resists stretching but hardly bending buckles there, and the \
+               section caves in.",
         ..bar.exhibit(motion, view)
     })
 }
@@ -57,6 +59,8 @@ pub fn twist() -> Result<Exhibit> {
         title: "A bar, twisted by 90°",
         handles: "An eighth of the bar is held at one end; an eighth at the other end is turned by 90° about the \
                   bar's axis.",
+        close: View::new(Vector::new(-1.0, -0.35, -0.5), Vector::y()),
+        look: "The section half-way: a surface that hardly resists bending narrows there like the paper of a sweet.",
         ..bar.exhibit(motion, view)
     })
 }
@@ -93,6 +97,7 @@ impl Bar {
             name: "",
             title: "",
             handles: "",
+            look: "",
             roles: self.surface.positions.iter().map(role).collect(),
             surface: self.surface,
             motion,

@@ -46,6 +46,7 @@ pub fn neck() -> Result<Exhibit> {
         motion: straightening(&line.points(&surface, &surface.positions)),
         view: View::new(Vector::new(0.35, -0.15, -1.0), Vector::y()),
         close: View::new(Vector::new(0.15, -0.1, -1.0), Vector::y()),
+        look: "The nape, where nearly all of the bend was.",
         line: Some(line),
         surface,
     })
@@ -58,7 +59,8 @@ fn snout(surface: &Surface) -> u32 {
     let up = low + HIGH * (high - low);
     let all = (0..).zip(&surface.positions);
     let high = all.filter(|(_, p)| p.y > up);
-    high.max_by(|a, b| a.1.x.total_cmp(&b.1.x)).map_or(0, |(v, _)| v)
+    high.max_by(|a, b| a.1.x.total_cmp(&b.1.x))
+        .map_or(0, |(v, _)| v)
 }
 
 /// The head's motion that makes the centre line, from head to foot, a straight one of the same length.

@@ -1,13 +1,16 @@
 //! What is deformed, and by what.
 
+use symmetrizer::Result;
 use symmetrizer::geom::Point;
 use symmetrizer::picture::View;
 use symmetrizer::shape::{Mesh, Surface, Working};
-use symmetrizer::Result;
 
 use super::center_line::CenterLine;
 use super::motion::Motion;
 use crate::constraints::Target;
+
+/// The handles' motion is made in so many parts, so that no step has to turn anything by much.
+pub const PARTS: usize = 9;
 
 /// What becomes of a vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,6 +41,8 @@ pub struct Exhibit {
     pub view: View,
     /// From where the free part is seen close up.
     pub close: View,
+    /// What to look at.
+    pub look: &'static str,
     /// What is to become straight, if anything is.
     pub line: Option<CenterLine>,
 }
@@ -51,8 +56,14 @@ impl Exhibit {
         (high - low).norm()
     }
 
-    /// Where held and moved vertices are to be after the share `t` of the motion.
-    pub fn targets(&self, t: f64) -> Vec<Target> {
+    /// Where held and moved vertices are to be in the end.
+    pub fn targets(&self) -> Vec<Target> {
+        self.part(PARTS)
+    }
+
+    /// Where they are to be after so many of the [`PARTS`] of the motion.
+    pub fn part(&self, part: usize) -> Vec<Target> {
+        let t = part as f64 / PARTS as f64;
         let target = |(v, (x, role)): (u32, (&Point, &Role))| match role {
             Role::Held => Some((v, *x)),
             Role::Free => None,
@@ -68,10 +79,14 @@ impl Exhibit {
     }
 }
 
-/// The working surface of a mesh.
+/// The surface of a mesh in working coordinates, its vertices as they are: programs that take manifolds only need
+/// those apart that lie in one place.
 ///
 /// # Errors
 /// A mesh that cannot be worked on.
 pub fn surface(mesh: &Mesh) -> Result<Surface> {
-    Ok(Working::new(mesh)?.surface)
+    let to_working = Working::new(mesh)?.normalization;
+    let positions = mesh.positions.iter().map(|p| to_working.to_working(p));
+    let triangles = mesh.triangles().map(|(corners, _)| corners).collect();
+    Ok(Surface::new(positions.collect(), triangles))
 }

@@ -1,14 +1,14 @@
 //! What is measured, the same for every method.
 
-use serde::Serialize;
 use symmetrizer::apply::measure::distortion;
 
+use super::center_line::CenterLine;
 use super::exhibit::Exhibit;
 use super::result::Deformed;
 use crate::constraints::Target;
 
 /// Figures of one deformed exhibit.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone)]
 pub struct Figures {
     /// Faces turned over against the surface around them.
     pub inverted: usize,
@@ -31,10 +31,8 @@ impl Figures {
         let diagonal = exhibit.diagonal();
         let d = distortion(&exhibit.surface, &after, diagonal);
         let missed = |(v, x): &Target| (after.positions[*v as usize] - x).norm();
-        let residual = exhibit.targets(1.0).iter().map(missed).fold(0.0, f64::max);
-        let sag = |line: &super::center_line::CenterLine| {
-            100.0 * line.sag(&exhibit.surface, &after.positions)
-        };
+        let residual = exhibit.targets().iter().map(missed).fold(0.0, f64::max);
+        let sag = |line: &CenterLine| 100.0 * line.sag(&exhibit.surface, &after.positions);
         Self {
             inverted: d.inverted_faces,
             crossing: d.new_crossings,
@@ -43,5 +41,10 @@ impl Figures {
             residual: 100.0 * residual / diagonal,
             sag: exhibit.line.as_ref().map(sag),
         }
+    }
+
+    /// Whether no face is inverted or newly crosses another.
+    pub fn intact(&self) -> bool {
+        self.inverted == 0 && self.crossing == 0
     }
 }

@@ -9,20 +9,29 @@ mod diplodocus;
 mod exhibit;
 mod figures;
 mod geodesic;
+mod goals;
 mod motion;
 mod ours;
+mod page;
 mod peer;
 mod picture;
 mod result;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use symmetrizer::Result;
-use symmetrizer::deform::Model;
+use symmetrizer::{Error, Result};
 
 use crate::{Answer, terminal};
-use exhibit::{Exhibit, Role};
+use exhibit::Exhibit;
 use figures::Figures;
+use goals::{Best, Entry};
+use picture::{Panel, picture};
+
+/// The page's file, beside its pictures.
+const PAGE: &str = "deformation.md";
+/// What is shown, in the page's order.
+const EXHIBITS: [fn() -> Result<Exhibit>; 4] =
+    [bars::bend, bars::twist, armadillo::arm, diplodocus::neck];
 
 /// Write the page of deformations by handles
 #[derive(clap::Args)]
@@ -34,50 +43,80 @@ pub struct Args {
     /// Where the page and its pictures go
     #[arg(long, value_name = "FOLDER", default_value = "docs/gallery")]
     out: PathBuf,
-    /// Only exhibits with this in their name
+    /// Exhibits with this in their name only
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
-    /// Half heights
-    #[arg(long, value_delimiter = ',', default_value = "0.02")]
-    half_height: Vec<f64>,
 }
 
 /// Makes the page.
 ///
 /// # Errors
-/// Test data that is missing or damaged; those of deformation; a peer that fails.
+/// Test data that is missing or damaged; those of deformation; a peer that fails; [`Error::Io`].
 pub fn run(args: &Args) -> Result<Answer> {
-    let exhibits: [fn() -> Result<Exhibit>; 4] =
-        [bars::bend, bars::twist, armadillo::arm, diplodocus::neck];
-    for exhibit in exhibits {
+    std::fs::create_dir_all(&args.out).map_err(|e| Error::io(&args.out, e))?;
+    let mut sections = Vec::new();
+    for exhibit in EXHIBITS {
         let exhibit = exhibit()?;
-        if args.only.as_ref().is_some_and(|o| !exhibit.name.contains(o)) {
-            continue;
+        let only = args.only.as_deref().unwrap_or_default();
+        if exhibit.name.contains(only) {
+            sections.push(section(&exhibit, args)?);
         }
-        terminal::note(&format!(
-            "{} {} triangles, {} held, {} moved, {} free {:?}",
-            exhibit.name,
-            exhibit.surface.triangles.len(),
-            exhibit.count(Role::Held),
-            exhibit.count(Role::Moved),
-            exhibit.count(Role::Free),
-            exhibit.motion,
-        ));
-        let mut all = Vec::new();
-        for (&h, model) in args.half_height.iter().flat_map(|h| [(h, Model::Primo), (h, Model::Arap)]) {
-            all.push(ours::deformed(&exhibit, model, h)?);
-            terminal::note(&format!("{:?} {:?} {:?} {:?}", Figures::new(&exhibit, all.last().unwrap()), all.last().unwrap().method, all.last().unwrap().steps, all.last().unwrap().seconds));
-        }
-        for program in &args.peer {
-            for d in peer::deformed(program, &exhibit)? {
-                terminal::note(&format!("{:?} {:?} {:?} {:?}", Figures::new(&exhibit, &d), d.method, d.steps, d.seconds));
-                all.push(d);
-            }
-        }
-        let mut panels = vec![picture::Panel { caption: "at rest", positions: &exhibit.surface.positions }];
-        panels.extend(all.iter().map(|d| picture::Panel { caption: &d.method, positions: &d.positions }));
-        let _ = std::fs::create_dir_all(&args.out);
-        std::fs::write(args.out.join(exhibit.name).with_extension("png"), picture::picture(&exhibit, &panels).to_png()?).unwrap();
     }
+    write(&args.out.join(PAGE), page::page(&sections).as_bytes())?;
     Ok(Answer::Done)
+}
+
+/// Deforms an exhibit in every way, writes its picture, and says what came of it.
+fn section(exhibit: &Exhibit, args: &Args) -> Result<String> {
+    terminal::note(exhibit.title);
+    let entries = entries(exhibit, &args.peer)?;
+    let canvas = picture(exhibit, &panels(exhibit, &entries));
+    write(
+        &args.out.join(exhibit.name).with_extension("png"),
+        &canvas.to_png()?,
+    )?;
+    let section = page::section(exhibit, &entries);
+    terminal::answer(&section);
+    Ok(section)
+}
+
+fn entries(exhibit: &Exhibit, peers: &[PathBuf]) -> Result<Vec<Entry>> {
+    let mut all = Vec::new();
+    for model in ours::MODELS {
+        for half_height in ours::HALF_HEIGHTS {
+            all.push(ours::deformed(exhibit, model, half_height)?);
+        }
+    }
+    for program in peers {
+        all.extend(peer::deformed(program, exhibit)?);
+    }
+    let entry = |deformed| Entry {
+        figures: Figures::new(exhibit, &deformed),
+        deformed,
+    };
+    Ok(all.into_iter().map(entry).collect())
+}
+
+/// At rest, ours, and the best of the peers'.
+fn panels<'a>(exhibit: &'a Exhibit, entries: &'a [Entry]) -> Vec<Panel<'a>> {
+    let panel = |e: &'a Entry| Panel {
+        caption: &e.deformed.method,
+        positions: &e.deformed.positions,
+    };
+    let mut panels = vec![Panel {
+        caption: "at rest",
+        positions: &exhibit.surface.positions,
+    }];
+    panels.extend(entries.iter().filter(|e| !e.deformed.peer).map(panel));
+    if let Some(best) = Best::of(entries) {
+        panels.push(panel(best.truest));
+        if !std::ptr::eq(best.truest, best.tightest) {
+            panels.push(panel(best.tightest));
+        }
+    }
+    panels
+}
+
+fn write(path: &Path, bytes: &[u8]) -> Result<()> {
+    std::fs::write(path, bytes).map_err(|e| Error::io(path, e))
 }

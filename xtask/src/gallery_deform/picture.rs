@@ -11,10 +11,12 @@ use symmetrizer::shape::crossings::{crossing_faces, new_crossings};
 use super::exhibit::{Exhibit, Role};
 
 /// Width and height of a panel, and the space above a row for what the panels show, pixels.
-const PANEL: [u32; 2] = [300, 260];
-const CAPTION: u32 = 28;
+const PANEL: [u32; 2] = [230, 220];
+const CAPTION: u32 = 24;
+/// White between panels, pixels.
+const GAP: u32 = 4;
 /// The size of a caption, pixels.
-const FONT: f64 = 14.0;
+const FONT: f64 = 12.0;
 /// Clay, and the colours of what is held, of what is moved and of faces that cross others.
 const CLAY: [f32; 3] = [0.86, 0.82, 0.775];
 const HELD: [f32; 3] = [0.55, 0.66, 0.80];
@@ -34,21 +36,22 @@ pub struct Panel<'a> {
 /// A row of panels that show the whole, and one close up.
 pub fn picture(exhibit: &Exhibit, panels: &[Panel<'_>]) -> Canvas {
     let [width, height] = PANEL;
-    let row = CAPTION + height;
-    let mut canvas = Canvas::new(width * panels.len() as u32, row + height);
+    let row = CAPTION + height + GAP;
+    let mut canvas = Canvas::new((width + GAP) * panels.len() as u32, row + height);
     let free = |v: &usize| exhibit.roles[*v] == Role::Free;
     let all: Vec<usize> = (0..exhibit.roles.len()).collect();
     let near: Vec<usize> = all.iter().copied().filter(free).collect();
     let whole = camera(exhibit.view, panels, &all, 1.0);
     let close = camera(exhibit.close, panels, &near, AROUND);
     for (k, panel) in (0..).zip(panels) {
-        let middle = f64::from(width) * (f64::from(k) + 0.5);
+        let left = k * (width + GAP);
+        let middle = f64::from(left) + 0.5 * f64::from(width);
         let caption = Text::new(panel.caption, middle, FONT + 4.0, FONT);
         canvas.text(caption.anchored(Anchor::Middle).within(f64::from(width)));
         let after = exhibit.surface.with_positions(panel.positions.to_vec());
         let painted = painted(exhibit, &after, k == 0);
         for (camera, y) in [(&whole, CAPTION), (&close, row)] {
-            canvas.image(k * width, y, painted.seen(camera));
+            canvas.image(left, y, painted.seen(camera));
         }
     }
     canvas
@@ -65,7 +68,13 @@ fn camera(view: View, panels: &[Panel<'_>], vertices: &[usize], around: f64) -> 
     let middle = |r: &RangeInclusive<f64>| 0.5 * (r.start() + r.end());
     let half = |r: &RangeInclusive<f64>| 0.5 * around * (r.end() - r.start());
     let center = Point::from(view.right() * middle(&across) + view.up * middle(&upwards));
-    Camera::showing(view, center, [half(&across), half(&upwards)], PANEL[0], PANEL[1])
+    Camera::showing(
+        view,
+        center,
+        [half(&across), half(&upwards)],
+        PANEL[0],
+        PANEL[1],
+    )
 }
 
 fn extent(values: impl Iterator<Item = f64>) -> RangeInclusive<f64> {
@@ -111,6 +120,9 @@ fn painted(exhibit: &Exhibit, after: &Surface, rest: bool) -> Painted {
     Painted {
         corners: (0..count).flat_map(|f| after.corners(f)).collect(),
         triangles: (0..count).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect(),
-        colors: (0..).zip(after.triangles.iter()).flat_map(|f| [color(f); 3]).collect(),
+        colors: (0..)
+            .zip(after.triangles.iter())
+            .flat_map(|f| [color(f); 3])
+            .collect(),
     }
 }

@@ -8,8 +8,10 @@ pub struct Deformed {
     pub method: String,
     /// Its vertices, working coordinates.
     pub positions: Vec<Point>,
-    /// Steps taken, if known.
-    pub steps: Option<usize>,
+    /// Steps or iterations taken.
+    pub steps: usize,
     /// Seconds, set-up included.
     pub seconds: f64,
+    /// Whether a peer did it.
+    pub peer: bool,
 }
