@@ -97,7 +97,7 @@ fn entries(exhibit: &Exhibit, peers: &[PathBuf]) -> Result<Vec<Entry>> {
     Ok(all.into_iter().map(entry).collect())
 }
 
-/// At rest, ours, and the best of the peers'.
+/// At rest, ours, of the peer's results the truest and, intact or not, the one that stretches least.
 fn panels<'a>(exhibit: &'a Exhibit, entries: &'a [Entry]) -> Vec<Panel<'a>> {
     let panel = |e: &'a Entry| Panel {
         caption: &e.deformed.method,
@@ -108,12 +108,10 @@ fn panels<'a>(exhibit: &'a Exhibit, entries: &'a [Entry]) -> Vec<Panel<'a>> {
         positions: &exhibit.surface.positions,
     }];
     panels.extend(entries.iter().filter(|e| !e.deformed.peer).map(panel));
-    if let Some(best) = Best::of(entries) {
-        panels.push(panel(best.truest));
-        if !std::ptr::eq(best.truest, best.tightest) {
-            panels.push(panel(best.tightest));
-        }
-    }
+    let truest = Best::of(entries).map(|best| best.truest);
+    let tightest = entries.iter().filter(|e| e.deformed.peer);
+    let tightest = tightest.min_by(|a, b| a.figures.stretch.total_cmp(&b.figures.stretch));
+    panels.extend(truest.into_iter().chain(tightest).map(panel));
     panels
 }
 
