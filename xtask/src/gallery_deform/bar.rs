@@ -18,8 +18,8 @@ const SEED: u64 = 7;
 pub fn bar() -> Mesh {
     let mut rng = Pcg64::seed_from_u64(SEED);
     let mut grid = Grid::default();
-    for axis in 0..3 {
-        for end in [0, SQUARES[axis]] {
+    for (axis, &squares) in SQUARES.iter().enumerate() {
+        for end in [0, squares] {
             side(&mut grid, axis, end, &mut rng);
         }
     }

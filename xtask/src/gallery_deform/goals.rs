@@ -48,7 +48,7 @@ pub struct Comparison {
     pub stretch: f64,
     /// Our correlation less the peer's.
     pub correlation: f64,
-    /// Whether both are good enough.
+    /// Whether both are good enough and ours is intact.
     pub met: bool,
 }
 
@@ -60,7 +60,7 @@ impl Comparison {
         Self {
             stretch,
             correlation,
-            met: stretch <= STRETCH && correlation >= -SAME,
+            met: ours.intact() && stretch <= STRETCH && correlation >= -SAME,
         }
     }
 }
