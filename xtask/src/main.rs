@@ -2,7 +2,9 @@
 
 mod bench_deform;
 mod bench_detect;
+mod constraints;
 mod data;
+mod gallery_deform;
 mod tables;
 mod terminal;
 
@@ -22,6 +24,7 @@ struct Cli {
 enum Verb {
     BenchDeform(bench_deform::Args),
     BenchDetect(bench_detect::Args),
+    GalleryDeform(gallery_deform::Args),
 }
 
 const EXIT_CODES: &str =
@@ -41,6 +44,7 @@ fn main() -> ExitCode {
     let answer = match &cli.verb {
         Verb::BenchDeform(args) => bench_deform::run(args),
         Verb::BenchDetect(args) => bench_detect::run(args),
+        Verb::GalleryDeform(args) => gallery_deform::run(args),
     };
     match answer {
         Ok(Answer::Done) => ExitCode::SUCCESS,

@@ -1,7 +1,7 @@
 //! How fast the deformers are, beside a peer on the same work: a bend of the bunny's upper part, held at
 //! scattered vertices, at three resolutions.
 
-mod clock;
+pub mod clock;
 mod peer;
 mod work;
 

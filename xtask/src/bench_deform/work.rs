@@ -1,16 +1,17 @@
 //! What is deformed, and by what.
 
-use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use rand::SeedableRng;
 use rand::seq::index;
 use rand_pcg::Pcg64;
+use symmetrizer::Result;
 use symmetrizer::deform::{DeformParams, Pull, control_mesh};
 use symmetrizer::geom::{Point, Vector, exp_rotation};
 use symmetrizer::shape::working::Working;
-use symmetrizer::shape::{Mesh, Surface, SurfacePoint};
-use symmetrizer::{Error, Result};
+use symmetrizer::shape::{Mesh, Surface};
+
+use crate::constraints;
 
 /// The longest way of a held vertex, as a share of the bounding box's diagonal.
 const LONGEST: f64 = 0.01;
@@ -36,7 +37,8 @@ impl Work {
             surface = control_mesh(&surface, triangles)?;
         }
         let targets = bent(&surface, held);
-        let pulls = pulls(&surface, &targets);
+        let length = DeformParams::default().length;
+        let pulls = constraints::pulls(&surface, &targets, length);
         Ok(Self {
             surface,
             targets,
@@ -52,26 +54,9 @@ impl Work {
     /// Writes the mesh as OFF, and each held vertex with its target as a line of text.
     ///
     /// # Errors
-    /// [`Error::Io`].
-    pub fn write(&self, folder: &Path) -> Result<[std::path::PathBuf; 2]> {
-        let s = &self.surface;
-        let mut off = format!("OFF\n{} {} 0\n", s.positions.len(), s.triangles.len());
-        for x in &s.positions {
-            let _ = writeln!(off, "{} {} {}", x.x, x.y, x.z);
-        }
-        for [a, b, c] in s.triangles.iter() {
-            let _ = writeln!(off, "3 {a} {b} {c}");
-        }
-        let mut lines = format!("{}\n", self.targets.len());
-        for (v, x) in &self.targets {
-            let _ = writeln!(lines, "{v} {} {} {}", x.x, x.y, x.z);
-        }
-        let paths = ["off", "txt"].map(|e| folder.join(self.name()).with_extension(e));
-        std::fs::create_dir_all(folder).map_err(|e| Error::io(folder, e))?;
-        for (path, text) in paths.iter().zip([off, lines]) {
-            std::fs::write(path, text).map_err(|e| Error::io(path, e))?;
-        }
-        Ok(paths)
+    /// [`symmetrizer::Error::Io`].
+    pub fn write(&self, folder: &Path) -> Result<[PathBuf; 2]> {
+        constraints::write(folder, &self.name(), &self.surface, &[&self.targets])
     }
 }
 
@@ -113,26 +98,5 @@ fn bent(surface: &Surface, held: usize) -> Vec<(u32, Point)> {
     chosen
         .into_iter()
         .map(|v| (v as u32, at(&x[v], small)))
-        .collect()
-}
-
-/// Each target as a soft constraint with the weight of its share of the surface.
-fn pulls(surface: &Surface, targets: &[(u32, Point)]) -> Vec<Pull> {
-    let mut corner = vec![None; surface.positions.len()];
-    for (face, corners) in (0..).zip(surface.triangles.iter()) {
-        for (k, &v) in corners.iter().enumerate() {
-            corner[v as usize].get_or_insert((face, k));
-        }
-    }
-    let length = DeformParams::default().length;
-    let weight = surface.area() / targets.len() as f64 / (length * length);
-    targets
-        .iter()
-        .filter_map(|&(v, target)| {
-            let (face, k) = corner[v as usize]?;
-            let bary = std::array::from_fn(|i| f64::from(u8::from(i == k)));
-            let at = SurfacePoint { face, bary };
-            Some(Pull { at, target, weight })
-        })
         .collect()
 }
