@@ -47,9 +47,9 @@ pub fn rows(program: &Path, work: &Work, runs: usize) -> Result<Vec<[String; 7]>
         let triangles = work.surface.triangles.len().to_string();
         let Some(line) = lines.first() else {
             // It does not take every mesh.
-            let nothing = || "-".to_string();
+            let [a, b, c, d, e] = ["-"; 5].map(String::from);
             let name = format!("{method}: no times");
-            rows.push([triangles, name, nothing(), nothing(), nothing(), nothing(), nothing()]);
+            rows.push([triangles, name, a, b, c, d, e]);
             continue;
         };
         let both = number(Some(set_up + iterations), 3);
