@@ -130,14 +130,18 @@ fn territories(moving: &Moving<'_>, planes: [Plane; 2]) -> [Vec<bool>; 2] {
         let missed = touched
             .iter()
             .map(|hit| hit.map_or(FAR, |hit| hit.residual));
-        (0..AVERAGED).fold(missed.collect(), |missed, _| averaged(&missed, neighbors))
+        let mut missed: Vec<f64> = missed.collect();
+        for _ in 0..AVERAGED {
+            missed = averaged(&missed, neighbors);
+        }
+        missed
     });
     let nearer = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a < b).collect();
     [nearer(&a, &b), nearer(&b, &a)]
 }
 
 /// Each value's mean with those of its neighbours.
-fn averaged(values: &Vec<f64>, neighbors: &[Vec<u32>]) -> Vec<f64> {
+fn averaged(values: &[f64], neighbors: &[Vec<u32>]) -> Vec<f64> {
     let mean = |(value, near): (&f64, &Vec<u32>)| {
         let sum: f64 = near.iter().map(|&i| values[i as usize]).sum();
         (value + sum) / (1 + near.len()) as f64
