@@ -2,6 +2,7 @@
 
 mod bench_deform;
 mod bench_detect;
+mod bench_straighten;
 mod constraints;
 mod data;
 mod gallery_deform;
@@ -24,6 +25,7 @@ struct Cli {
 enum Verb {
     BenchDeform(bench_deform::Args),
     BenchDetect(bench_detect::Args),
+    BenchStraighten(bench_straighten::Args),
     GalleryDeform(gallery_deform::Args),
 }
 
@@ -44,6 +46,7 @@ fn main() -> ExitCode {
     let answer = match &cli.verb {
         Verb::BenchDeform(args) => bench_deform::run(args),
         Verb::BenchDetect(args) => bench_detect::run(args),
+        Verb::BenchStraighten(args) => bench_straighten::run(args),
         Verb::GalleryDeform(args) => gallery_deform::run(args),
     };
     match answer {

@@ -9,6 +9,7 @@ pub mod context;
 pub mod deform;
 pub mod detect;
 pub mod error;
+pub mod field;
 pub mod geom;
 pub mod group;
 pub mod job;
@@ -21,6 +22,7 @@ pub mod report;
 pub mod sample;
 pub mod shape;
 pub mod slip;
+pub mod straighten;
 pub mod transform;
 
 pub use context::{CancelToken, Context, Event};

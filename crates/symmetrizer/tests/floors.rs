@@ -50,7 +50,9 @@ const HOUSE: &[Floor] = &[
         only: Some(&["geom", "transform"]),
     },
     floor(55, "detect"),
+    floor(57, "field"),
     floor(60, "optimize"),
+    floor(60, "straighten"),
     floor(70, "apply"),
     Floor {
         module: "picture",

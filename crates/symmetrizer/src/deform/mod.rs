@@ -2,7 +2,7 @@
 //! possible (section 4.2). Nothing here has heard of symmetry.
 
 pub mod arap;
-mod bridges;
+pub mod bridges;
 pub mod carry;
 pub mod control;
 pub mod elastic;
@@ -38,6 +38,17 @@ pub struct Pull {
     pub target: Point,
     /// Weight w of w |x - target|^2 against the deformation energy, dimensionless (area over
     /// squared stiffness length, docs/definitions.md).
+    pub weight: f64,
+}
+
+/// Two points of the rest surface that are to lie opposite each other across the plane x = 0.
+#[derive(Debug, Clone, Copy)]
+pub struct Tie {
+    /// One.
+    pub p: SurfacePoint,
+    /// The other.
+    pub q: SurfacePoint,
+    /// Weight of the squared distance, 1 as much as a vertex's edges.
     pub weight: f64,
 }
 

@@ -1,10 +1,11 @@
 //! Prescribed rotations: positions whose differences are the rest shape's, turned as asked.
 
 pub mod system;
+mod tied;
 
 use crate::deform::bridges::bridges;
 use crate::deform::laplacian::edge_weights;
-use crate::deform::{Pull, check_pulls, check_stiffness, failure};
+use crate::deform::{Pull, Tie, check_pulls, check_stiffness, failure};
 use crate::error::{Error, Result};
 use crate::geom::{Matrix3, Point, Vector};
 use crate::shape::Surface;
@@ -54,6 +55,28 @@ pub fn integrate(
         moved.iter_mut().for_each(|x| *x += drift);
     }
     Ok(moved)
+}
+
+/// [`integrate`] with `ties` instead of pulls: x_p = S x_q at each, S = diag(-1, 1, 1), softly, both ends free
+/// to move and anywhere on the surface. A `weight` of 1 counts as much as the edges of a vertex.
+///
+/// # Errors
+/// [`Error::Params`] for a wrong count, [`Error::Numerical`] for what is not finite.
+pub fn integrate_tied(rest: &Surface, rotations: &[Matrix3], ties: &[Tie]) -> Result<Vec<Point>> {
+    if rotations.len() != rest.positions.len() {
+        return Err(Error::params("rotations", "needs one for each vertex"));
+    }
+    let weights = edge_weights(rest, None);
+    let bridges = bridges(&rest.positions, weights.keys().map(|&(u, v)| [u, v]));
+    let mut edges: Vec<([u32; 2], f64)> = weights.iter().map(|(&(u, v), &k)| ([u, v], k)).collect();
+    let degree = 2.0 * weights.values().sum::<f64>() / rest.positions.len().max(1) as f64;
+    edges.extend(bridges.iter().map(|&pair| (pair, TIE)));
+    let scaled = |t: &Tie| Tie {
+        weight: t.weight * degree,
+        ..*t
+    };
+    let ties: Vec<Tie> = ties.iter().map(scaled).collect();
+    tied::solve(rest, &edges, rotations, &ties).map_err(|e| failure(e, 0))
 }
 
 /// Weight of the edge that ties a separate component to its nearest neighbour.

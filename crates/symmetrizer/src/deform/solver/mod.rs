@@ -5,12 +5,14 @@ pub mod aggregate;
 pub mod cholesky;
 pub mod coupling;
 pub mod direct;
+pub mod entries;
 pub mod system;
 pub mod two_level;
 
 pub use cholesky::Cholesky;
 pub use coupling::{Coupling, Twist};
 pub use direct::Direct;
+pub use entries::{Entries, Factorized};
 pub use system::System;
 pub use two_level::TwoLevel;
 

@@ -1,0 +1,68 @@
+//! Prescribed rotations with pairs of points that are tied to each other, both ends free.
+
+use crate::deform::Tie;
+use crate::deform::solver::{Entries, SolveError};
+use crate::geom::{Matrix3, Point, Vector};
+use crate::shape::Surface;
+
+/// Share of the mean diagonal that is added to it: what nothing holds stays where it is.
+const RIDGE: f64 = 1e-8;
+/// What a tie does to each axis: x changes sides.
+const SIGNS: [f64; 3] = [-1.0, 1.0, 1.0];
+
+/// Positions that minimise the edges' misfit to the rotations plus that of the ties, see
+/// [`super::integrate_tied`]. Axes fall apart; those of the same sign share a matrix.
+pub fn solve(
+    rest: &Surface,
+    edges: &[([u32; 2], f64)],
+    rotations: &[Matrix3],
+    ties: &[Tie],
+) -> Result<Vec<Point>, SolveError> {
+    let wanted = wanted(rest, edges, rotations);
+    let mut moved = rest.positions.clone();
+    for sign in [-1.0, 1.0] {
+        let mut entries = Entries::default();
+        for &([i, j], k) in edges {
+            entries.add_square(&[(i as usize, 1.0), (j as usize, -1.0)], k);
+        }
+        for tie in ties {
+            entries.add_square(&terms(rest, tie, sign), tie.weight);
+        }
+        let n = rest.positions.len();
+        let ridge = RIDGE * entries.mean_diagonal(n);
+        (0..n).for_each(|v| entries.add(v, v, ridge));
+        let mut matrix = entries.factorized(n)?;
+        for axis in (0..3).filter(|&a| SIGNS[a] == sign) {
+            // A second solve takes out what the first one's ridge held back.
+            for _ in 0..2 {
+                let held = wanted.iter().zip(&moved);
+                let mut x: Vec<f64> = held.map(|(w, x)| w[axis] + ridge * x[axis]).collect();
+                matrix.solve(&mut x)?;
+                moved.iter_mut().zip(x).for_each(|(p, x)| p[axis] = x);
+            }
+        }
+    }
+    Ok(moved)
+}
+
+/// The right-hand side of the edges.
+fn wanted(rest: &Surface, edges: &[([u32; 2], f64)], rotations: &[Matrix3]) -> Vec<Vector> {
+    let mut wanted = vec![Vector::zeros(); rest.positions.len()];
+    for &([i, j], k) in edges {
+        let (i, j) = (i as usize, j as usize);
+        let mean = (rotations[i] + rotations[j]) / 2.0;
+        let way = k * (mean * (rest.positions[i] - rest.positions[j]));
+        wanted[i] += way;
+        wanted[j] -= way;
+    }
+    wanted
+}
+
+/// x_p - sign x_q as terms over the corners of both ends.
+fn terms(rest: &Surface, tie: &Tie, sign: f64) -> Vec<(usize, f64)> {
+    let end = |at: &crate::shape::SurfacePoint, factor: f64| {
+        let corners = rest.triangles[at.face as usize];
+        std::array::from_fn::<_, 3, _>(|k| (corners[k] as usize, factor * at.bary[k]))
+    };
+    [end(&tie.p, 1.0), end(&tie.q, -sign)].concat()
+}

@@ -1,0 +1,151 @@
+//! Growth of a field over the surface: pairs are accepted next to accepted ones, the surest first.
+
+use rayon::prelude::*;
+
+use crate::field::cut::torn;
+use crate::field::local::{Local, fit};
+use crate::field::{Partner, Reach, SymmetryField};
+use crate::geom::{Point, PointIndex, Vector};
+use crate::sample::Samples;
+use crate::shape::{ClosestPoint, Surface};
+use crate::transform::Isometry;
+
+/// What a field grows on.
+pub struct Land<'a> {
+    /// The surface.
+    pub surface: &'a Surface,
+    /// Its closest points.
+    pub closest: &'a ClosestPoint,
+    /// Its samples.
+    pub samples: &'a Samples,
+    /// What lies around each sample.
+    pub reach: &'a Reach,
+    index: PointIndex<3>,
+}
+
+/// Distances of a partner from where its neighbours' mirrors say, fractions of L, each exhausted before the
+/// next: grown at the widest at once, pairs slide.
+const TIERS: [f64; 4] = [0.006, 0.01, 0.015, 0.02];
+/// Those of the second stage, with isometries instead of mirrors.
+const WIDE_TIERS: [f64; 3] = [0.015, 0.02, 0.03];
+/// Radius of local fits in both stages, fractions of L.
+pub const RADII: [f64; 2] = [0.08, 0.045];
+/// The second stage is left out where the first covers more.
+const COVERED: f64 = 0.985;
+/// Partners face where the image faces to within this cosine.
+const MIN_COS: f64 = 0.5;
+/// Accepted neighbours that a candidate needs.
+const NEIGHBORS: usize = 2;
+/// Rounds of a tier at the most.
+const ROUNDS: usize = 80;
+/// Cuts at the most.
+const CUTS: usize = 3;
+
+impl<'a> Land<'a> {
+    /// Over a surface and its samples.
+    pub fn new(
+        surface: &'a Surface,
+        closest: &'a ClosestPoint,
+        samples: &'a Samples,
+        reach: &'a Reach,
+    ) -> Self {
+        let places: Vec<[f64; 3]> = samples
+            .list
+            .iter()
+            .map(|s| s.position.coords.into())
+            .collect();
+        Self {
+            index: PointIndex::new(&places),
+            surface,
+            closest,
+            samples,
+            reach,
+        }
+    }
+
+    /// The partner of sample `s` under `t`, where the surface lies within `tau` of its image and faces its
+    /// way.
+    pub fn image(&self, s: u32, t: &Isometry, tau: f64) -> Option<Partner> {
+        let sample = &self.samples.list[s as usize];
+        self.near(&t.apply(&sample.position), &t.rotate(&sample.normal), tau)
+    }
+
+    fn near(&self, image: &Point, normal: &Vector, tau: f64) -> Option<Partner> {
+        let hit = self.closest.nearest_facing(image, normal, MIN_COS, tau)?;
+        let (sample, _) = self.index.nearest(&hit.point.coords.into())?;
+        Some(Partner {
+            at: hit.at,
+            position: hit.point,
+            normal: self.surface.normal(&hit.at),
+            sample,
+            residual: hit.distance,
+        })
+    }
+}
+
+/// Grows `seeds` over the surface.
+pub fn grow(land: &Land<'_>, seeds: Vec<Option<Partner>>) -> SymmetryField {
+    let mut partners = seeds;
+    for _ in 0..=CUTS {
+        tiers(land, &mut partners, Local::Mirror, RADII[0], &TIERS);
+        let maps = fit(land.samples, land.reach, &partners, Local::Mirror, RADII[0]);
+        if !torn(land, &mut partners, &maps) {
+            break;
+        }
+    }
+    let share = partners.iter().flatten().count() as f64 / partners.len().max(1) as f64;
+    let (local, radius) = if share < COVERED {
+        tiers(land, &mut partners, Local::Improper, RADII[1], &WIDE_TIERS);
+        (Local::Improper, RADII[1])
+    } else {
+        (Local::Mirror, RADII[0])
+    };
+    let maps = fit(land.samples, land.reach, &partners, local, radius);
+    SymmetryField { partners, maps }
+}
+
+/// Accepts candidates tier by tier; accepted pairs are matched anew in every round.
+fn tiers(
+    land: &Land<'_>,
+    partners: &mut Vec<Option<Partner>>,
+    local: Local,
+    radius: f64,
+    taus: &[f64],
+) {
+    for &tau in taus {
+        for _ in 0..ROUNDS {
+            let maps = fit(land.samples, land.reach, partners, local, radius);
+            let next: Vec<Option<Partner>> = (0..partners.len() as u32)
+                .into_par_iter()
+                .map(|s| match (&partners[s as usize], &maps[s as usize]) {
+                    (Some(_), Some(t)) => land.image(s, t, tau),
+                    (Some(kept), None) => Some(*kept),
+                    _ => candidate(land, &maps, s, tau),
+                })
+                .collect();
+            let accepted = |p: &[Option<Partner>]| p.iter().flatten().count();
+            let grown = accepted(&next) > accepted(partners);
+            *partners = next;
+            if !grown {
+                break;
+            }
+        }
+    }
+}
+
+/// The partner of a sample without one where the maps of its neighbours say.
+fn candidate(land: &Land<'_>, maps: &[Option<Isometry>], s: u32, tau: f64) -> Option<Partner> {
+    let sample = &land.samples.list[s as usize];
+    let near = &land.reach.neighbors[s as usize];
+    let (mut image, mut normal, mut count) = (Vector::zeros(), Vector::zeros(), 0);
+    for t in near.iter().filter_map(|&n| maps[n as usize].as_ref()) {
+        image += t.apply(&sample.position).coords;
+        normal += t.rotate(&sample.normal);
+        count += 1;
+    }
+    if count < NEIGHBORS {
+        return None;
+    }
+    let normal = normal.try_normalize(1e-6)?;
+    land.near(&Point::from(image / count as f64), &normal, tau)
+}

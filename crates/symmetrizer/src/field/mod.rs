@@ -1,0 +1,62 @@
+//! Symmetry fields: mirrors that vary slowly along the surface, as on a bent shape, whose votes form a ridge
+//! in transformation space rather than a blob.
+//!
+//! Each sample has a partner on the surface and a local mirror that carries its surroundings there.
+
+pub mod cut;
+pub mod grow;
+pub mod local;
+pub mod reach;
+pub mod seeds;
+
+use crate::geom::{Point, Vector};
+use crate::shape::SurfacePoint;
+use crate::transform::Isometry;
+
+pub use grow::grow;
+pub use reach::Reach;
+
+/// The partner of a sample.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Partner {
+    /// Where on the surface.
+    pub at: SurfacePoint,
+    /// Its position, working coordinates.
+    pub position: Point,
+    /// Unit normal of the surface there.
+    pub normal: Vector,
+    /// The sample nearest to it.
+    pub sample: u32,
+    /// Its distance from the image of the sample under the local mirror, fraction of L.
+    pub residual: f64,
+}
+
+/// A symmetry field.
+#[derive(Debug, Clone)]
+pub struct SymmetryField {
+    /// The partner of each sample, where it has one.
+    pub partners: Vec<Option<Partner>>,
+    /// The local isometry of each sample that has a partner: carries the sample's surroundings to the
+    /// partner's.
+    pub maps: Vec<Option<Isometry>>,
+}
+
+/// The field that detection's `mirrors` grow into on `land`: of several starts the one that covers most.
+pub fn find(land: &grow::Land<'_>, mirrors: &[Isometry]) -> SymmetryField {
+    let grown = seeds::CLAIMS.map(|claim| grow(land, seeds::seeds(land, mirrors, claim)));
+    let best = grown
+        .into_iter()
+        .max_by(|a, b| a.cover().total_cmp(&b.cover()));
+    best.unwrap_or_else(|| SymmetryField {
+        partners: vec![None; land.samples.list.len()],
+        maps: vec![None; land.samples.list.len()],
+    })
+}
+
+impl SymmetryField {
+    /// The share of the samples that have a partner.
+    pub fn cover(&self) -> f64 {
+        let paired = self.partners.iter().flatten().count();
+        paired as f64 / self.partners.len().max(1) as f64
+    }
+}

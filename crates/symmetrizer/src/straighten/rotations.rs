@@ -1,0 +1,140 @@
+//! The rotation field that turns every local mirror into one.
+//!
+//! R_i: the rotation of sample i; rho its row as a column. Of a pair (p, q) with the local map A the target
+//! R_q A = S R_p, S = diag(-1, 1, 1), is linear and falls apart by rows: rho_q = s A rho_p with s = -1 for the
+//! first row, +1 for the others. The rows that miss it least are the smallest eigenvectors of
+//! sum over edges of w |rho_i - rho_j|^2 + W sum over pairs of c |rho_q - s A rho_p|^2 against a mass.
+
+use crate::deform::solver::{Entries, Factorized, SolveError};
+use crate::field::{Reach, SymmetryField};
+use crate::geom::{Matrix3, Vector, nearest_orthogonal};
+
+/// W, beside this much for all edges of a sample.
+const PAIRS: f64 = 3.0;
+const EDGES: f64 = 8.0;
+/// Mass of a sample without a partner: it follows.
+const FOLLOWS: f64 = 0.02;
+/// Residual at which a pair's say falls to 1/e, fraction of L, and the least it has.
+const RESIDUAL: f64 = 0.01;
+const LEAST: f64 = 0.15;
+/// Vectors and rounds of the subspace iteration.
+const VECTORS: usize = 5;
+const ROUNDS: usize = 30;
+/// Shift of the eigenproblem, against a singular matrix.
+const SHIFT: f64 = 1e-6;
+
+/// The rotation of each sample.
+///
+/// # Errors
+/// [`SolveError`].
+pub fn rotations(reach: &Reach, field: &SymmetryField) -> Result<Vec<Matrix3>, SolveError> {
+    let first = rows(reach, field, -1.0, 1)?;
+    let others = rows(reach, field, 1.0, 2)?;
+    let matrix = |i: usize| {
+        Matrix3::from_rows(&[
+            first[0][i].transpose(),
+            others[0][i].transpose(),
+            others[1][i].transpose(),
+        ])
+    };
+    let mut all: Vec<Matrix3> = (0..reach.neighbors.len()).map(matrix).collect();
+    let mut hands: Vec<f64> = all.iter().map(Matrix3::determinant).collect();
+    if crate::geom::median(&mut hands).unwrap_or(1.0) < 0.0 {
+        for m in &mut all {
+            m.row_mut(0).neg_mut();
+        }
+    }
+    Ok(all.iter().map(|m| nearest_orthogonal(m, false)).collect())
+}
+
+/// The `wanted` smallest eigenvectors for the rows of sign `s`, a vector for each sample.
+fn rows(
+    reach: &Reach,
+    field: &SymmetryField,
+    s: f64,
+    wanted: usize,
+) -> Result<Vec<Vec<Vector>>, SolveError> {
+    let n = reach.neighbors.len();
+    let mut entries = Entries::default();
+    add_edges(&mut entries, reach);
+    let mut mass = vec![FOLLOWS; n];
+    for (p, (partner, map)) in field.partners.iter().zip(&field.maps).enumerate() {
+        if let (Some(partner), Some(map)) = (partner, map) {
+            mass[p] = 1.0;
+            let c = PAIRS * (-(partner.residual / RESIDUAL).powi(2)).exp().max(LEAST);
+            add_pair(
+                &mut entries,
+                p,
+                partner.sample as usize,
+                &(s * map.linear),
+                c,
+            );
+        }
+    }
+    let mass: Vec<f64> = mass.iter().flat_map(|m| [*m; 3]).collect();
+    for (i, m) in mass.iter().enumerate() {
+        entries.add(i, i, SHIFT * m);
+    }
+    let vectors = smallest(entries.factorized(3 * n)?, &mass)?;
+    let split = |x: &Vec<f64>| x.chunks_exact(3).map(Vector::from_column_slice).collect();
+    Ok(vectors.iter().take(wanted).map(split).collect())
+}
+
+/// w |rho_i - rho_j|^2 over the edges of the graph of neighbours, 8 for each sample in the mean.
+fn add_edges(entries: &mut Entries, reach: &Reach) {
+    let links: usize = reach.neighbors.iter().map(Vec::len).sum();
+    let w = EDGES * reach.neighbors.len() as f64 / links.max(1) as f64;
+    for (i, near) in reach.neighbors.iter().enumerate() {
+        for j in near.iter().map(|&j| j as usize).filter(|&j| i > j) {
+            for a in 0..3 {
+                entries.add_square(&[(3 * i + a, 1.0), (3 * j + a, -1.0)], w);
+            }
+        }
+    }
+}
+
+/// c |rho_q - a rho_p|^2.
+fn add_pair(entries: &mut Entries, p: usize, q: usize, a: &Matrix3, c: f64) {
+    for r in 0..3 {
+        let across = (0..3).map(|k| (3 * p + k, -a[(r, k)]));
+        let terms: Vec<(usize, f64)> = std::iter::once((3 * q + r, 1.0)).chain(across).collect();
+        entries.add_square(&terms, c);
+    }
+}
+
+/// Inverse subspace iteration: the smallest eigenvectors of a matrix against a diagonal mass.
+fn smallest(mut matrix: Factorized, mass: &[f64]) -> Result<Vec<Vec<f64>>, SolveError> {
+    // Any start that is not orthogonal to what is sought.
+    let start = |k: usize| -> Vec<f64> {
+        (0..mass.len())
+            .map(|i| ((1 + k) as f64 * (i % 3 + 1) as f64 + 0.001 * i as f64).sin())
+            .collect()
+    };
+    let mut block: Vec<Vec<f64>> = (0..VECTORS).map(start).collect();
+    for _ in 0..ROUNDS {
+        for x in &mut block {
+            x.iter_mut().zip(mass).for_each(|(x, m)| *x *= m);
+            matrix.solve(x)?;
+        }
+        orthonormalize(&mut block, mass);
+    }
+    Ok(block)
+}
+
+/// Gram and Schmidt against the mass, the largest first: inverse iteration has grown the smallest
+/// eigenvector most.
+fn orthonormalize(block: &mut [Vec<f64>], mass: &[f64]) {
+    let dot = |a: &[f64], b: &[f64]| -> f64 {
+        a.iter().zip(b).zip(mass).map(|((a, b), m)| a * b * m).sum()
+    };
+    for k in 0..block.len() {
+        let (done, rest) = block.split_at_mut(k);
+        let x = &mut rest[0];
+        for y in done.iter() {
+            let along = dot(x, y);
+            x.iter_mut().zip(y).for_each(|(x, y)| *x -= along * y);
+        }
+        let norm = dot(x, x).sqrt().max(f64::MIN_POSITIVE);
+        x.iter_mut().for_each(|x| *x /= norm);
+    }
+}
