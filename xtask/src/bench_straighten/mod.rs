@@ -10,7 +10,7 @@ use symmetrizer::geom::{Matrix3, Point, Vector, nearest_orthogonal};
 use symmetrizer::sample::Samples;
 use symmetrizer::shape::working::Working;
 use symmetrizer::shape::{ClosestPoint, io};
-use symmetrizer::straighten::straighten;
+use symmetrizer::straighten::{settle, straighten};
 use symmetrizer::{Context, Params, Result};
 
 use crate::tables::{Table, number};
@@ -58,6 +58,7 @@ pub fn run(args: &Args) -> Result<Answer> {
         "after",
         "detect s",
         "grow s",
+        "settle s",
         "straighten s",
     ]);
     for name in SHAPES {
@@ -74,7 +75,7 @@ pub fn run(args: &Args) -> Result<Answer> {
     Ok(Answer::Done)
 }
 
-fn one(name: &str, args: &Args) -> Result<[String; 9]> {
+fn one(name: &str, args: &Args) -> Result<[String; 10]> {
     let folder = data::root()?.join("truth");
     let truth: Truth = data::json(&folder.join(format!("{name}.truth.json")))?;
     let mut document = io::read(&folder.join(&truth.file))?;
@@ -95,6 +96,8 @@ fn one(name: &str, args: &Args) -> Result<[String; 9]> {
     let mirrors: Vec<_> = found.symmetries.iter().map(|s| s.q_from_p).collect();
     let field = find(&land, &mirrors);
     let grown = lap();
+    let field = settle(&land, &field)?;
+    let settled = lap();
     let done = straighten(&working.surface, &found.samples, &reach, &field)?;
     let straightened = lap();
     let right = truth
@@ -125,6 +128,7 @@ fn one(name: &str, args: &Args) -> Result<[String; 9]> {
         number(after, 3),
         detected,
         grown,
+        settled,
         straightened,
     ])
 }

@@ -70,14 +70,18 @@ impl<'a> Land<'a> {
         self.near(&t.apply(&sample.position), &t.rotate(&sample.normal), tau)
     }
 
+    /// The sample nearest to a place.
+    pub fn nearest(&self, x: &Point) -> Option<u32> {
+        Some(self.index.nearest(&x.coords.into())?.0)
+    }
+
     fn near(&self, image: &Point, normal: &Vector, tau: f64) -> Option<Partner> {
         let hit = self.closest.nearest_facing(image, normal, MIN_COS, tau)?;
-        let (sample, _) = self.index.nearest(&hit.point.coords.into())?;
         Some(Partner {
             at: hit.at,
             position: hit.point,
             normal: self.surface.normal(&hit.at),
-            sample,
+            sample: self.nearest(&hit.point)?,
             residual: hit.distance,
         })
     }

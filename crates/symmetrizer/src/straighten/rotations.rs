@@ -6,6 +6,7 @@
 //! sum over edges of w |rho_i - rho_j|^2 + W sum over pairs of c |rho_q - s A rho_p|^2 against a mass.
 
 use crate::deform::solver::{Entries, Factorized, SolveError};
+use crate::error::Error;
 use crate::field::{Reach, SymmetryField};
 use crate::geom::{Matrix3, Vector, nearest_orthogonal};
 
@@ -26,8 +27,16 @@ const SHIFT: f64 = 1e-6;
 /// The rotation of each sample.
 ///
 /// # Errors
-/// [`SolveError`].
-pub fn rotations(reach: &Reach, field: &SymmetryField) -> Result<Vec<Matrix3>, SolveError> {
+/// [`Error::Numerical`].
+pub fn solved(reach: &Reach, field: &SymmetryField) -> Result<Vec<Matrix3>, Error> {
+    rotations(reach, field).map_err(|_| Error::Numerical {
+        stage: "straighten",
+        step: 0,
+        what: "the rotation field could not be solved for".into(),
+    })
+}
+
+fn rotations(reach: &Reach, field: &SymmetryField) -> Result<Vec<Matrix3>, SolveError> {
     let first = rows(reach, field, -1.0, 1)?;
     let others = rows(reach, field, 1.0, 2)?;
     let matrix = |i: usize| {
