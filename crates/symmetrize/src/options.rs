@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use symmetrizer::detect::Want;
+use symmetrizer::straighten::When;
 use symmetrizer::{CancelToken, Context, Error, Params, Result};
 
 use crate::progress::Progress;
@@ -40,6 +41,43 @@ pub struct Sought {
     /// inversion, continuous [default: all of them]
     #[arg(long, value_name = "KINDS", value_delimiter = ',')]
     classes: Vec<String>,
+}
+
+/// Flags that say what becomes of a bend.
+#[derive(Args)]
+pub struct Bends {
+    /// Share of the bend to remove where the shape is symmetric about a bent axis: 0.5 leaves half of it,
+    /// both sides alike [default: 1]
+    #[arg(long, value_name = "SHARE", conflicts_with_all = ["keep_pose", "no_straighten"])]
+    straighten: Option<f64>,
+    /// Make the shape symmetric about its bent axis: both sides alike, the pose stays
+    #[arg(long, conflicts_with = "no_straighten")]
+    keep_pose: bool,
+    /// Take no bend into account
+    #[arg(long)]
+    no_straighten: bool,
+    /// Straighten where the symmetry under the bend is uncertain, too
+    #[arg(long, conflicts_with = "no_straighten")]
+    accept_uncertain: bool,
+}
+
+impl Bends {
+    /// Sets in `params` what the flags say.
+    pub fn set(&self, params: &mut Params) -> Result<()> {
+        if let Some(share) = self.straighten {
+            params.set("straighten.share", &share.to_string())?;
+        }
+        if self.keep_pose {
+            params.straighten.share = 0.0;
+        }
+        if self.no_straighten {
+            params.straighten.when = When::Never;
+        }
+        if self.accept_uncertain {
+            params.straighten.when = When::Uncertain;
+        }
+        Ok(())
+    }
 }
 
 impl Sought {

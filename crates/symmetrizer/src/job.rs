@@ -1,5 +1,6 @@
 //! The whole paper: detection, contraction, merging and the figures before and after, in a row.
 
+mod bent;
 pub mod kinds;
 mod measured;
 pub mod pictures;
@@ -132,9 +133,17 @@ pub fn symmetrize_with(
     };
     let surface = &before.working.surface;
     let exact = measured.max <= EXACT && !before.symmetries().is_empty();
-    let done = match exact {
-        true => Optimized::unmoved(surface, &before.detection, Outcome::Converged),
-        false => optimize(surface, &before.detection, settings, ctx)?,
+    let mut bend = None;
+    let done = if exact {
+        Optimized::unmoved(surface, &before.detection, Outcome::Converged)
+    } else {
+        let mean = measured.mean / 100.0 * before.diagonal;
+        let looked = bent::unbend(&before, mean, &params.straighten, settings, ctx)?;
+        bend = looked.report;
+        match looked.done {
+            Some(done) => done,
+            None => optimize(surface, &before.detection, settings, ctx)?,
+        }
     };
     let faces = FaceSamples::of(&before);
     let asymmetry = AsymmetryReport::new(&measured, &before.working.normalization);
@@ -144,6 +153,7 @@ pub fn symmetrize_with(
         warnings: Vec::new(),
         stiffness: stiffness.as_deref().map(StiffnessReport::new),
         input: InputReport::new(mesh, &before, &faces, Some(asymmetry)),
+        bend,
         result: None,
         steps: done.steps.clone(),
         run: None,

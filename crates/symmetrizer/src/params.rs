@@ -14,6 +14,7 @@ use crate::pair::PairParams;
 use crate::patch::PatchParams;
 use crate::sample::SampleParams;
 use crate::slip::SlipParams;
+use crate::straighten::StraightenParams;
 
 /// Parameters of [`crate::symmetrize`]. A parameter's dotted name is that of its section and its
 /// field, `optimize.step`, in files, in `--set` and in errors.
@@ -32,6 +33,8 @@ pub struct Params {
     pub patch: PatchParams,
     /// Continuous symmetries.
     pub slip: SlipParams,
+    /// Bends.
+    pub straighten: StraightenParams,
     /// The deformation model.
     pub deform: DeformParams,
     /// The schedule.
@@ -40,7 +43,7 @@ pub struct Params {
 
 /// What each parameter may be. The limits keep work and memory finite and formulas defined; within
 /// them not every value is wise.
-const RANGES: [(&str, f64, f64); 39] = [
+const RANGES: [(&str, f64, f64); 41] = [
     ("sample.count", 100.0, 20_000.0),
     ("pair.tolerance", 1e-6, 100.0),
     ("pair.partners", 1.0, 1000.0),
@@ -65,6 +68,8 @@ const RANGES: [(&str, f64, f64); 39] = [
     ("patch.min_height", 0.0, 1.0),
     ("slip.tolerance", 1e-4, 0.5),
     ("slip.min_area", 0.0, 1.0),
+    ("straighten.share", 0.0, 1.0),
+    ("straighten.min_bend", 0.0, 180.0),
     ("deform.length", 1e-4, 10.0),
     ("deform.half_height", 1e-5, 1.0),
     ("deform.control_faces", 100.0, 1e6),
@@ -86,6 +91,8 @@ const RANGES: [(&str, f64, f64); 39] = [
 const KINDS: &str = "detect.kinds";
 /// The deformer's.
 const MODEL: &str = "deform.model";
+/// When bends are undone.
+const WHEN: &str = "straighten.when";
 
 impl Params {
     /// The parameters in a TOML document; those it does not name have their defaults.
@@ -280,6 +287,9 @@ fn range_of(name: &str) -> Option<String> {
     }
     if name == MODEL {
         return Some("primo or arap".into());
+    }
+    if name == WHEN {
+        return Some("never, accepted or uncertain".into());
     }
     let (_, low, high) = RANGES.iter().find(|r| r.0 == name)?;
     Some(between(*low, *high))

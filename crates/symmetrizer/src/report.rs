@@ -4,6 +4,7 @@
 //! distances and costs of symmetries and steps are in fractions of the scale L (costs: of L^2);
 //! asymmetry and distortion are in percent of the diagonal D.
 
+pub mod bend;
 pub mod faces;
 pub mod groups;
 mod json;
@@ -24,6 +25,7 @@ use crate::report::faces::FaceSamples;
 use crate::shape::working::Working;
 use crate::shape::{Mesh, Validation};
 
+pub use bend::BendReport;
 pub use groups::{ContinuousReport, GroupReport};
 pub use refusals::{RefusalReport, RefusedCount};
 pub use symmetry::SymmetryReport;
@@ -62,6 +64,9 @@ pub struct Report {
     pub stiffness: Option<StiffnessReport>,
     /// The shape as it came.
     pub input: InputReport,
+    /// The bend that its local mirrors have; none where they are one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bend: Option<BendReport>,
     /// The shape as it went; none where no symmetry was found.
     pub result: Option<ResultReport>,
     /// What was done, in order.

@@ -10,7 +10,7 @@ use symmetrizer::geom::{Matrix3, Point, Vector, nearest_orthogonal};
 use symmetrizer::sample::Samples;
 use symmetrizer::shape::working::Working;
 use symmetrizer::shape::{ClosestPoint, io};
-use symmetrizer::straighten::{settle, straighten};
+use symmetrizer::straighten::{Bend, straighten};
 use symmetrizer::{Context, Params, Result};
 
 use crate::tables::{Table, number};
@@ -51,14 +51,15 @@ struct Truth {
 pub fn run(args: &Args) -> Result<Answer> {
     let mut table = Table::new([
         "shape",
+        "score",
+        "bend",
         "cover",
         "right to 1 %",
         "2 %",
         "rms before",
         "after",
         "detect s",
-        "grow s",
-        "settle s",
+        "look s",
         "straighten s",
     ]);
     for name in SHAPES {
@@ -75,7 +76,7 @@ pub fn run(args: &Args) -> Result<Answer> {
     Ok(Answer::Done)
 }
 
-fn one(name: &str, args: &Args) -> Result<[String; 10]> {
+fn one(name: &str, args: &Args) -> Result<[String; 11]> {
     let folder = data::root()?.join("truth");
     let truth: Truth = data::json(&folder.join(format!("{name}.truth.json")))?;
     let mut document = io::read(&folder.join(&truth.file))?;
@@ -94,11 +95,12 @@ fn one(name: &str, args: &Args) -> Result<[String; 10]> {
     let reach = Reach::new(&found.samples, 0.12);
     let land = Land::new(&working.surface, &closest, &found.samples, &reach);
     let mirrors: Vec<_> = found.symmetries.iter().map(|s| s.q_from_p).collect();
-    let field = find(&land, &mirrors);
-    let grown = lap();
-    let field = settle(&land, &field)?;
-    let settled = lap();
-    let done = straighten(&working.surface, &found.samples, &reach, &field)?;
+    let bend = Bend::find(&land, &mirrors)?;
+    let looked = lap();
+    let (field, positions) = match &bend {
+        Some(bend) => (bend.field.clone(), straighten(&land, bend)?.positions),
+        None => (find(&land, &mirrors), working.surface.positions.clone()),
+    };
     let straightened = lap();
     let right = truth
         .partner
@@ -111,7 +113,7 @@ fn one(name: &str, args: &Args) -> Result<[String; 10]> {
     let moved: Vec<Point> = working
         .vertex_of_document
         .iter()
-        .map(|v| v.map_or(Point::origin(), |v| done.positions[v as usize]))
+        .map(|v| v.map_or(Point::origin(), |v| positions[v as usize]))
         .collect();
     let after = rms(&moved);
     if let Some(folder) = &args.write {
@@ -121,14 +123,15 @@ fn one(name: &str, args: &Args) -> Result<[String; 10]> {
     }
     Ok([
         name.into(),
+        number(bend.as_ref().map(|b| b.trust.score()), 2),
+        number(bend.as_ref().map(|b| b.degrees), 0),
         number(Some(field.cover()), 3),
         number(right.map(|r| r[0]), 3),
         number(right.map(|r| r[1]), 3),
         number(before, 3),
         number(after, 3),
         detected,
-        grown,
-        settled,
+        looked,
         straightened,
     ])
 }

@@ -11,7 +11,7 @@ use symmetrizer::{Context, Error, Outcome, Params, Result, Symmetrized, Warning,
 use crate::Answer;
 use crate::files::{MeshFile, PictureFile, ReportFile, check_distinct, commit};
 use crate::input::{self, Input};
-use crate::options::{Desk, Tuning};
+use crate::options::{Bends, Desk, Tuning};
 use crate::summary;
 
 /// Make a shape symmetric
@@ -41,6 +41,8 @@ pub struct RunArgs {
     /// face, or JSON {"per": "vertex", "values": [..]} (or "face")
     #[arg(long, value_name = "NUMBER|FILE")]
     stiffness: Option<String>,
+    #[command(flatten)]
+    bends: Bends,
     /// Where no symmetry is found, write the input unchanged
     #[arg(long)]
     write_unchanged: bool,
@@ -83,6 +85,7 @@ pub fn run(args: &RunArgs, desk: &Desk) -> Result<Answer> {
 impl RunArgs {
     fn params(&self) -> Result<Params> {
         let mut params = self.tuning.resolve()?;
+        self.bends.set(&mut params)?;
         if let Some(energy) = self.max_deformation {
             params.set("optimize.max_deformation", &energy.to_string())?;
         }

@@ -7,8 +7,9 @@ mod together;
 use std::fmt::Write;
 
 use symmetrizer::apply::measure::{AsymmetryReport, Distortion, PlaneReport};
+use symmetrizer::field::trust::Verdict;
 use symmetrizer::optimize::Step;
-use symmetrizer::report::{Report, ShapeReport};
+use symmetrizer::report::{BendReport, Report, ShapeReport};
 use symmetrizer::{Outcome, Warning};
 
 pub use found::symmetries;
@@ -51,6 +52,7 @@ pub fn run(report: &Report) -> String {
     ];
     text += &asymmetry(&states);
     text += &distortion(&result.distortion);
+    text += &report.bend.as_ref().map_or_else(String::new, bend);
     let _ = writeln!(text, "energy       {:.2e}", result.energy);
     let _ = writeln!(text, "outcome      {}", outcome(report.outcome));
     text + &warnings(&report.warnings)
@@ -102,8 +104,30 @@ pub fn plane(plane: &PlaneReport) -> String {
     )
 }
 
+/// What was made of a bend.
+fn bend(bend: &BendReport) -> String {
+    let verdict = match bend.verdict {
+        Verdict::Accept => "symmetric about its bent axis",
+        Verdict::Uncertain => {
+            "perhaps symmetric about a bent axis: look at it with --accept-uncertain"
+        }
+        Verdict::Refuse => "no symmetry about a bent axis that could be trusted",
+    };
+    format!(
+        "bend         {verdict} (score {:.2}: {:.0} % trusted, likeness {:.2}); local mirrors turn by {:.0} \
+         degrees, {:.0} removed\n",
+        bend.score,
+        100.0 * bend.trusted,
+        bend.likeness,
+        bend.degrees,
+        bend.removed
+    )
+}
+
 fn done(step: &Step) -> String {
     match step {
+        Step::Straighten { bend, .. } => format!("straightened: a bend of {bend:.0} degrees"),
+        Step::Bend { bend } => format!("bent again by {bend:.0} degrees"),
         Step::Contract {
             symmetry, steps, ..
         } => format!("contracted {symmetry} in {steps} steps"),

@@ -8,6 +8,7 @@ pub mod grow;
 pub mod local;
 pub mod reach;
 pub mod seeds;
+pub mod trust;
 
 use crate::geom::{Point, Vector};
 use crate::shape::SurfacePoint;

@@ -12,4 +12,4 @@ pub mod schedule;
 pub mod untangle;
 
 pub use params::OptimizeParams;
-pub use schedule::{Optimized, Outcome, Step, optimize};
+pub use schedule::{Optimized, Outcome, Step, complete, optimize};

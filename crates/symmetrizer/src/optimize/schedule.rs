@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::context::Context;
-use crate::deform::{DeformParams, deformer};
+use crate::deform::{DeformParams, Deformer, deformer};
 use crate::detect::{DetectParams, Detection, detect};
 use crate::error::Result;
 use crate::geom::Point;
@@ -37,6 +37,18 @@ pub enum Outcome {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "step", rename_all = "snake_case")]
 pub enum Step {
+    /// A bend was undone.
+    Straighten {
+        /// How far the local mirrors turned over the shape, degrees.
+        bend: f64,
+        /// Share of the samples whose partner was trusted.
+        trusted: f64,
+    },
+    /// A share of the bend was put back.
+    Bend {
+        /// Degrees.
+        bend: f64,
+    },
     /// A cluster was contracted.
     Contract {
         /// Id of the symmetry.
@@ -159,19 +171,9 @@ pub fn optimize(
     if detection.symmetries.is_empty() {
         return Ok(Optimized::unmoved(surface, detection, Outcome::NoSymmetry));
     }
-    let mut deformer = ctx.stage("prepare", |_| deformer(surface, settings.deform))?;
-    if let Some(stiffness) = settings.stiffness {
-        deformer.set_stiffness(stiffness)?;
-    }
-    let moving = Moving {
-        samples: detection.samples.clone(),
-        length: settings.deform.length,
-        step: settings.optimize.step,
-        closest: ClosestPoint::new(surface),
-        deformer: deformer.as_mut(),
-    };
+    let mut deformer = ctx.stage("prepare", |_| prepared(surface, settings))?;
     Schedule {
-        moving,
+        moving: moving(surface, detection, settings, deformer.as_mut()),
         settings,
         symmetries: worthwhile(
             &detection.symmetries,
@@ -236,6 +238,59 @@ fn mergeable(s: &Symmetry, t: &Symmetry, params: &OptimizeParams, count: usize) 
     })
 }
 
+/// Makes a surface that was `straightened` symmetric under the mirror `plane` that it got there: the last
+/// contraction and the finish, until the asymmetry is `asymmetry_before` (that of the bent one, fraction of L) no
+/// longer by far. The energy is that beside the straight shape.
+///
+/// # Errors
+/// As [`optimize`].
+pub fn complete(
+    straightened: &Surface,
+    plane: Plane,
+    asymmetry_before: f64,
+    detection: &Detection,
+    settings: Settings<'_>,
+    ctx: &mut Context<'_>,
+) -> Result<Optimized> {
+    settings.optimize.check()?;
+    let mut deformer = ctx.stage("prepare", |_| prepared(straightened, settings))?;
+    let schedule = Schedule {
+        moving: moving(straightened, detection, settings, deformer.as_mut()),
+        settings,
+        symmetries: Vec::new(),
+        steps: Vec::new(),
+        outcome: Outcome::Converged,
+        failed: Vec::new(),
+        next_id: next_id(detection),
+    };
+    schedule.whole(plane, asymmetry_before, ctx)
+}
+
+/// The deformer over `surface`.
+fn prepared(surface: &Surface, settings: Settings<'_>) -> Result<Box<dyn Deformer>> {
+    let mut deformer = deformer(surface, settings.deform)?;
+    if let Some(stiffness) = settings.stiffness {
+        deformer.set_stiffness(stiffness)?;
+    }
+    Ok(deformer)
+}
+
+/// The samples of a detection on a `surface` that a deformer moves.
+fn moving<'a>(
+    surface: &Surface,
+    detection: &Detection,
+    settings: Settings<'_>,
+    deformer: &'a mut dyn Deformer,
+) -> Moving<'a> {
+    Moving {
+        samples: detection.samples.clone(),
+        length: settings.deform.length,
+        step: settings.optimize.step,
+        closest: ClosestPoint::new(surface),
+        deformer,
+    }
+}
+
 struct Schedule<'a> {
     moving: Moving<'a>,
     settings: Settings<'a>,
@@ -255,7 +310,17 @@ impl Schedule<'_> {
         if self.outcome != Outcome::EnergyLimit {
             ctx.stage("merge", |ctx| self.merge_all(ctx))?;
         }
-        let mut plane = self.main().plane();
+        let plane = self.main().plane();
+        self.whole(plane, asymmetry_before, ctx)
+    }
+
+    /// The last contraction and the finish, under the mirror of the whole.
+    fn whole(
+        mut self,
+        mut plane: Plane,
+        asymmetry_before: f64,
+        ctx: &mut Context<'_>,
+    ) -> Result<Optimized> {
         if self.outcome != Outcome::EnergyLimit {
             plane = ctx.stage("contract whole", |ctx| self.contract_whole(plane, ctx))?;
         }

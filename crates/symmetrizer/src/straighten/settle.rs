@@ -17,7 +17,7 @@ use crate::shape::{ClosestPoint, Hit, Surface};
 use crate::straighten::blend::Blend;
 use crate::straighten::equations::{Equations, along};
 use crate::straighten::slopes::{SIGNS, Slope, slopes};
-use crate::straighten::{rotations, straighten};
+use crate::straighten::{rotations, solve};
 
 /// Weight of the neighbours' agreement beside a pair's distance: at first, so that parts find their places
 /// as wholes, and at last.
@@ -113,8 +113,8 @@ impl<'a> Settling<'a> {
     /// Begins with what `field` says by itself.
     fn new(land: &'a Land<'a>, field: &SymmetryField) -> Result<Self> {
         let turns = rotations::solved(land.reach, field)?;
-        let begun = straighten(land.surface, land.samples, land.reach, field)?;
-        let begun = land.surface.with_positions(begun.positions);
+        let begun = solve(land, field, &turns)?;
+        let begun = land.surface.with_positions(begun);
         let samples = land.samples.list.iter().zip(turns);
         let motions = samples.map(|(s, rotation)| Motion {
             rotation,

@@ -1,0 +1,145 @@
+//! Where a field says something: a mirror that drifts enough fits any smooth shape.
+//!
+//! Two things speak for a partner that growth and settling do not look for by themselves: that it lies as far
+//! from its neighbours' partners as the sample from its neighbours (the field is an isometry of the surface
+//! onto itself), and that the surface looks alike there, beside how alike any two places look. Decision 0018
+//! has the figures.
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::field::grow::Land;
+use crate::field::{Partner, SymmetryField};
+use crate::geom::median;
+use crate::sample::Sample;
+
+/// Distances along the surface over which stretch is measured, fractions of L.
+const SPAN: [f64; 2] = [0.05, 0.115];
+/// Mean |log| stretch around a sample above which its partner is not trusted.
+const STRETCH: f64 = 0.15;
+/// Mean gap of signatures around a sample, beside that of any two, above which it is not.
+const UNLIKE: f64 = 0.7;
+/// Gap of any two samples below which a shape is too bland to say anything (asinh k r): those of blobs with
+/// a few dents have .15 to .25, all shapes with features .4 to .9.
+const BLAND: f64 = 0.3;
+/// Scores from which a field is accepted, and below which it is refused.
+const ACCEPT: f64 = 0.45;
+const REFUSE: f64 = 0.2;
+/// Samples that each is compared with for the gap of any two.
+const DRAWN: usize = 8;
+/// Steps of the golden ratio go through the samples without a pattern.
+const GOLDEN: f64 = 0.618_033_988_749_895;
+
+/// Whether a field is there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Yes.
+    Accept,
+    /// A person should look.
+    Uncertain,
+    /// No: it could be found on a shape without any.
+    Refuse,
+}
+
+/// How far a field is to be trusted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trust {
+    /// Whether each sample's partner is.
+    pub trusted: Vec<bool>,
+    /// The share of the samples that are.
+    pub share: f64,
+    /// Median gap between the signatures of partners, beside that of any two samples: 0 alike, 1 by chance.
+    pub gap: f64,
+    /// The latter itself: how much there is to compare (asinh k r).
+    pub relief: f64,
+}
+
+impl Trust {
+    /// Of `field`.
+    pub fn of(land: &Land<'_>, field: &SymmetryField) -> Self {
+        let gaps = gaps(land, field);
+        let relief = median(&mut drawn(&land.samples.list)).unwrap_or_default();
+        let count = land.samples.list.len();
+        let trusted: Vec<bool> = (0..count as u32)
+            .into_par_iter()
+            .map(|s| {
+                let alike = mean_around(land, s, &gaps) <= UNLIKE * relief;
+                field.partners[s as usize].is_some() && alike && stretch(land, field, s) <= STRETCH
+            })
+            .collect();
+        let mut all: Vec<f64> = gaps.iter().flatten().copied().collect();
+        let gap = median(&mut all).unwrap_or(f64::INFINITY);
+        Self {
+            share: trusted.iter().filter(|t| **t).count() as f64 / count.max(1) as f64,
+            gap: gap / relief.max(f64::MIN_POSITIVE),
+            relief,
+            trusted,
+        }
+    }
+
+    /// Trusted share times likeness, 0 to 1.
+    pub fn score(&self) -> f64 {
+        self.share * (1.0 - self.gap).max(0.0)
+    }
+
+    /// What follows from the figures.
+    pub fn verdict(&self) -> Verdict {
+        let score = self.score();
+        match () {
+            () if score < REFUSE => Verdict::Refuse,
+            () if score >= ACCEPT && self.relief >= BLAND => Verdict::Accept,
+            () => Verdict::Uncertain,
+        }
+    }
+}
+
+/// Gap between the signatures of each sample and its partner.
+fn gaps(land: &Land<'_>, field: &SymmetryField) -> Vec<Option<f64>> {
+    let list = &land.samples.list;
+    let gap = |(s, q): (&Sample, &Option<Partner>)| {
+        let q = q.as_ref()?.sample as usize;
+        s.signature.distance(&list[q].signature)
+    };
+    list.iter().zip(&field.partners).map(gap).collect()
+}
+
+/// Gaps between any two samples, the same two at every run.
+fn drawn(list: &[Sample]) -> Vec<f64> {
+    let other = |k: usize| ((GOLDEN * (k + 1) as f64).fract() * list.len() as f64) as usize;
+    (0..list.len() * DRAWN)
+        .map(|k| (k / DRAWN, other(k)))
+        .filter(|(i, j)| i != j)
+        .filter_map(|(i, j)| list[i].signature.distance(&list[j].signature))
+        .collect()
+}
+
+fn mean_around(land: &Land<'_>, s: u32, gaps: &[Option<f64>]) -> f64 {
+    let near = land.reach.of(s, SPAN[1]);
+    mean(near.filter_map(|(j, _)| gaps[j as usize]))
+}
+
+/// The mean |log| stretch of the field around a sample, infinite where it has no partners.
+fn stretch(land: &Land<'_>, field: &SymmetryField, s: u32) -> f64 {
+    let Some(p) = &field.partners[s as usize] else {
+        return f64::INFINITY;
+    };
+    let x = land.samples.list[s as usize].position;
+    let around = land.reach.of(s, SPAN[1]).filter(|(_, d)| *d >= SPAN[0]);
+    mean(around.filter_map(|(j, _)| {
+        let q = field.partners[j as usize].as_ref()?;
+        let apart = (land.samples.list[j as usize].position - x).norm();
+        let ratio = (p.position - q.position).norm() / apart.max(1e-9);
+        Some(ratio.max(1e-9).ln().abs())
+    }))
+}
+
+/// The mean, infinite of nothing.
+fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0.0), |(s, n), v| (s + v, n + 1.0));
+    if count == 0.0 {
+        f64::INFINITY
+    } else {
+        sum / count
+    }
+}

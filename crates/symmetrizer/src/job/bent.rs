@@ -1,0 +1,103 @@
+//! Bent shapes: the bend is undone, the straight shape made symmetric, and what is to stay of the bend put
+//! back.
+
+use crate::context::Context;
+use crate::error::Result;
+use crate::field::Reach;
+use crate::field::grow::Land;
+use crate::field::trust::Verdict;
+use crate::geom::Matrix3;
+use crate::job::Detected;
+use crate::optimize::schedule::Settings;
+use crate::optimize::{Optimized, Step, complete};
+use crate::report::BendReport;
+use crate::shape::ClosestPoint;
+use crate::straighten::{Bend, StraightenParams, When, bend_again, straighten};
+
+/// Distance along the surface that a field looks at, fraction of L.
+const REACH: f64 = 0.12;
+
+/// What came of looking for a bend.
+pub(super) struct Looked {
+    /// The figures, whatever came of it.
+    pub report: Option<BendReport>,
+    /// The work, where the bend was undone.
+    pub done: Option<Optimized>,
+}
+
+/// Looks for a bend in the state `before`, whose mean asymmetry is `asymmetry` (fraction of L), and undoes it
+/// where the parameters say so.
+pub(super) fn unbend(
+    before: &Detected,
+    asymmetry: f64,
+    params: &StraightenParams,
+    settings: Settings<'_>,
+    ctx: &mut Context<'_>,
+) -> Result<Looked> {
+    let nothing = Looked {
+        report: None,
+        done: None,
+    };
+    if params.when == When::Never || before.symmetries().is_empty() {
+        return Ok(nothing);
+    }
+    let surface = &before.working.surface;
+    let samples = &before.detection.samples;
+    let reach = Reach::new(samples, REACH);
+    let closest = ClosestPoint::new(surface);
+    let land = Land::new(surface, &closest, samples, &reach);
+    let mirrors: Vec<_> = before.symmetries().iter().map(|s| s.q_from_p).collect();
+    let found = ctx.stage("bend", |_| Bend::find(&land, &mirrors))?;
+    let Some(bend) = found else {
+        return Ok(nothing);
+    };
+    let mut report = BendReport::new(&bend);
+    if bend.degrees < params.min_bend || !wanted(report.verdict, params.when) {
+        return Ok(Looked {
+            report: Some(report),
+            done: None,
+        });
+    }
+    let straight = ctx.stage("straighten", |_| straighten(&land, &bend))?;
+    let now = surface.with_positions(straight.positions.clone());
+    let mut done = complete(
+        &now,
+        straight.plane,
+        asymmetry,
+        &before.detection,
+        settings,
+        ctx,
+    )?;
+    done.steps.insert(
+        0,
+        Step::Straighten {
+            bend: bend.degrees,
+            trusted: bend.trust.share,
+        },
+    );
+    let kept = 1.0 - params.share;
+    report.removed = params.share * bend.degrees;
+    if kept > 0.0 {
+        let symmetric = now.with_positions(done.positions);
+        let frame: Matrix3 = straight.frame;
+        done.positions = ctx.stage("bend again", |_| {
+            bend_again(&land, &bend, &frame, &symmetric, kept)
+        })?;
+        done.plane = None;
+        done.steps.push(Step::Bend {
+            bend: kept * bend.degrees,
+        });
+    }
+    Ok(Looked {
+        report: Some(report),
+        done: Some(done),
+    })
+}
+
+fn wanted(verdict: Verdict, when: When) -> bool {
+    match verdict {
+        Verdict::Accept => when != When::Never,
+        Verdict::Uncertain => when == When::Uncertain,
+        Verdict::Refuse => false,
+    }
+}

@@ -1,0 +1,40 @@
+//! What is said about a bend.
+
+use serde::Serialize;
+
+use crate::field::trust::Verdict;
+use crate::straighten::Bend;
+
+/// A bend and whether it is believed.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BendReport {
+    /// Whether the symmetry under it is there.
+    pub verdict: Verdict,
+    /// What the verdict follows from, 0 to 1: the trusted share times the likeness of partners.
+    pub score: f64,
+    /// Share of the surface whose partners are trusted: as far from each other as they should be, and alike.
+    pub trusted: f64,
+    /// 1 where partners look alike (curvatures), 0 where they do no more than any two places.
+    pub likeness: f64,
+    /// How much there is to compare: the median difference of any two places' curvatures, asinh(k r).
+    pub relief: f64,
+    /// The largest angle by which local mirrors turn over the shape, degrees.
+    pub degrees: f64,
+    /// How much of it was removed, degrees.
+    pub removed: f64,
+}
+
+impl BendReport {
+    /// Of `bend`, nothing removed yet.
+    pub fn new(bend: &Bend) -> Self {
+        Self {
+            verdict: bend.trust.verdict(),
+            score: bend.trust.score(),
+            trusted: bend.trust.share,
+            likeness: (1.0 - bend.trust.gap).max(0.0),
+            relief: bend.trust.relief,
+            degrees: bend.degrees,
+            removed: 0.0,
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! A bend: how far the local mirrors turn over the shape, and whether they are to be believed.
+
+use crate::error::Result;
+use crate::field::grow::Land;
+use crate::field::trust::{Trust, Verdict};
+use crate::field::{SymmetryField, find};
+use crate::geom::{Matrix3, Vector, nearest_orthogonal, sorted_eigen};
+use crate::straighten::{rotations, settle};
+use crate::transform::Isometry;
+
+/// Local mirrors that turn less, degrees, are one mirror.
+pub const LEAST: f64 = 4.0;
+/// Share of the samples that are looked at for the largest turn: the rest may be anything.
+const MOST: f64 = 0.98;
+
+/// A bend that was found on a shape.
+pub struct Bend {
+    /// Partners and local isometries, settled.
+    pub field: SymmetryField,
+    /// How far they are to be trusted.
+    pub trust: Trust,
+    /// The rotation of each sample into the straight shape, which is turned as a whole as it likes.
+    pub turns: Vec<Matrix3>,
+    /// The largest angle between the turns of two places, degrees.
+    pub degrees: f64,
+}
+
+impl Bend {
+    /// Looks for the field that detection's `mirrors` grow into; `None` where there are none or they turn
+    /// nowhere.
+    ///
+    /// # Errors
+    /// [`crate::Error::Numerical`].
+    pub fn find(land: &Land<'_>, mirrors: &[Isometry]) -> Result<Option<Self>> {
+        if mirrors.is_empty() {
+            return Ok(None);
+        }
+        let grown = find(land, mirrors);
+        if spread(land, &grown) < LEAST {
+            return Ok(None);
+        }
+        let mut field = settle(land, &grown)?;
+        let trust = Trust::of(land, &field);
+        if trust.verdict() != Verdict::Refuse {
+            for (partner, trusted) in field.partners.iter_mut().zip(&trust.trusted) {
+                *partner = partner.filter(|_| *trusted);
+            }
+        }
+        let turns = rotations::solved(land.reach, &field)?;
+        let degrees = span(&shared(&turns, &field));
+        Ok(Some(Self {
+            field,
+            trust,
+            turns,
+            degrees,
+        }))
+    }
+}
+
+/// The turns that partners have in common: a place on the spine and its two sides turn as one.
+pub fn shared(turns: &[Matrix3], field: &SymmetryField) -> Vec<Matrix3> {
+    let both = |(turn, partner): (&Matrix3, &Option<crate::field::Partner>)| {
+        let other = partner.map_or(*turn, |q| turns[q.sample as usize]);
+        nearest_orthogonal(&(turn + other), false)
+    };
+    turns.iter().zip(&field.partners).map(both).collect()
+}
+
+/// The largest angle between two of the rotations, degrees, the outermost left out.
+fn span(turns: &[Matrix3]) -> f64 {
+    let middle = nearest_orthogonal(&turns.iter().sum(), false);
+    let outermost = |from: &Matrix3| {
+        let mut angles: Vec<(f64, usize)> = turns
+            .iter()
+            .enumerate()
+            .map(|(i, t)| (angle(from, t), i))
+            .collect();
+        let at = ((angles.len() as f64 * MOST) as usize).min(angles.len() - 1);
+        *angles
+            .select_nth_unstable_by(at, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
+            .1
+    };
+    let (_, far) = outermost(&middle);
+    outermost(&turns[far]).0
+}
+
+/// The angle of the rotation from `a` to `b`, degrees.
+fn angle(a: &Matrix3, b: &Matrix3) -> f64 {
+    let cos = ((a.transpose() * b).trace() - 1.0) / 2.0;
+    cos.clamp(-1.0, 1.0).acos().to_degrees()
+}
+
+/// Twice the angle from the mean normal within which nearly all normals of the local mirrors lie, degrees.
+fn spread(land: &Land<'_>, field: &SymmetryField) -> f64 {
+    let samples = land.samples.list.iter().zip(&field.maps);
+    let normals: Vec<Vector> = samples
+        .filter_map(|(s, map)| Some(map.as_ref()?.nearest_mirror(&s.position).normal))
+        .collect();
+    let tensor: Matrix3 = normals.iter().map(|n| n * n.transpose()).sum();
+    let mean = sorted_eigen(&tensor).1.column(2).into_owned();
+    let mut angles: Vec<f64> = normals
+        .iter()
+        .map(|n| n.dot(&mean).abs().min(1.0).acos().to_degrees())
+        .collect();
+    if angles.is_empty() {
+        return 0.0;
+    }
+    let at = ((angles.len() as f64 * MOST) as usize).min(angles.len() - 1);
+    2.0 * *angles.select_nth_unstable_by(at, f64::total_cmp).1
+}
