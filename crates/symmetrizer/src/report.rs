@@ -25,7 +25,7 @@ use crate::report::faces::FaceSamples;
 use crate::shape::working::Working;
 use crate::shape::{Mesh, Validation};
 
-pub use bend::BendReport;
+pub use bend::{BendReport, KeptReport};
 pub use groups::{ContinuousReport, GroupReport};
 pub use refusals::{RefusalReport, RefusedCount};
 pub use symmetry::SymmetryReport;

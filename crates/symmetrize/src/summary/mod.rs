@@ -113,9 +113,16 @@ fn bend(bend: &BendReport) -> String {
         }
         Verdict::Refuse => "no symmetry about a bent axis that could be trusted",
     };
+    let kept = bend.kept.as_ref().map_or_else(String::new, |kept| {
+        format!(
+            "             {:.0} degrees kept: partners {:.3} % of D from opposite each other across the \
+             bent mirror, middle moved {:.2} %\n",
+            kept.degrees, kept.across, kept.line
+        )
+    });
     format!(
         "bend         {verdict} (score {:.2}: {:.0} % trusted, likeness {:.2}); local mirrors turn by {:.0} \
-         degrees, {:.0} removed\n",
+         degrees, {:.0} removed\n{kept}",
         bend.score,
         100.0 * bend.trusted,
         bend.likeness,

@@ -6,11 +6,10 @@ use crate::error::Result;
 use crate::field::Reach;
 use crate::field::grow::Land;
 use crate::field::trust::Verdict;
-use crate::geom::Matrix3;
 use crate::job::Detected;
 use crate::optimize::schedule::Settings;
 use crate::optimize::{Optimized, Step, complete};
-use crate::report::BendReport;
+use crate::report::{BendReport, KeptReport};
 use crate::shape::ClosestPoint;
 use crate::straighten::{Bend, StraightenParams, When, bend_again, straighten};
 
@@ -75,17 +74,22 @@ pub(super) fn unbend(
             trusted: bend.trust.share,
         },
     );
-    let kept = 1.0 - params.share;
     report.removed = params.share * bend.degrees;
-    if kept > 0.0 {
+    if let Some(plane) = done.plane.filter(|_| params.share < 1.0) {
         let symmetric = now.with_positions(done.positions);
-        let frame: Matrix3 = straight.frame;
-        done.positions = ctx.stage("bend again", |_| {
-            bend_again(&land, &bend, &frame, &symmetric, kept)
+        let posed = ctx.stage("bend again", |_| {
+            let kept = 1.0 - params.share;
+            bend_again(&land, &bend, &straight, (&symmetric, &plane), kept)
         })?;
-        done.plane = None;
+        let percent = 100.0 / before.diagonal;
+        report.kept = Some(KeptReport {
+            degrees: bend.degrees - report.removed,
+            across: posed.across * percent,
+            line: posed.line * percent,
+        });
+        done.positions = posed.positions;
         done.steps.push(Step::Bend {
-            bend: kept * bend.degrees,
+            bend: bend.degrees - report.removed,
         });
     }
     Ok(Looked {

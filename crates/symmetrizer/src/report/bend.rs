@@ -22,6 +22,20 @@ pub struct BendReport {
     pub degrees: f64,
     /// How much of it was removed, degrees.
     pub removed: f64,
+    /// What was kept of it; none where all was removed, or nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kept: Option<KeptReport>,
+}
+
+/// A shape that is symmetric about an axis that is still bent.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct KeptReport {
+    /// How much of the bend, degrees.
+    pub degrees: f64,
+    /// How far partners lie from opposite each other across the bent mirror, mean, % of D.
+    pub across: f64,
+    /// How far the middle between them lies from where it was in the input, rms, % of D.
+    pub line: f64,
 }
 
 impl BendReport {
@@ -35,6 +49,7 @@ impl BendReport {
             relief: bend.trust.relief,
             degrees: bend.degrees,
             removed: 0.0,
+            kept: None,
         }
     }
 }

@@ -22,7 +22,7 @@ use blend::Blend;
 
 pub use bend::Bend;
 pub use params::{StraightenParams, When};
-pub use pose::bend_again;
+pub use pose::{Posed, bend_again};
 pub use settle::settle;
 
 /// A straightened surface.
