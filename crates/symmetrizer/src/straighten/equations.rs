@@ -2,17 +2,17 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::Matrix6;
+use nalgebra::{Matrix3x6, Matrix6};
 
-use crate::deform::solver::{Entries, SolveError, Twist};
-use crate::geom::Vector;
+use crate::deform::solver::{Cholesky, SolveError, Twist};
+use crate::geom::{Vector, skew};
 
 /// What is added to the diagonal for a turn, L^2, and for a way: what nothing holds stays.
 const RIDGE: [f64; 2] = [1e-9, 1e-6];
 
 /// Sums of squares that are linear in the twists.
 pub struct Equations {
-    /// Lower blocks: row, column.
+    /// Lower blocks: column, row.
     blocks: BTreeMap<(u32, u32), Matrix6<f64>>,
     right: Vec<Twist>,
 }
@@ -29,6 +29,32 @@ pub fn along(direction: &Vector, arm: &Vector) -> Twist {
         direction.y,
         direction.z,
     )
+}
+
+/// Points of two motions that are to be at the same places.
+#[derive(Debug, Clone, Default)]
+pub struct Spring {
+    /// Of the first, of the second, and between the second (rows) and the first.
+    blocks: [Matrix6<f64>; 3],
+    right: [Twist; 2],
+}
+
+impl Spring {
+    /// Adds `weight` times the square of `miss` plus what the point at `arms[0]` from the first centre moves less
+    /// what that at `arms[1]` from the second does.
+    pub fn add(&mut self, arms: [Vector; 2], miss: Vector, weight: f64) {
+        let [a, b] = arms.map(|arm| {
+            let mut j = Matrix3x6::zeros();
+            j.fixed_view_mut::<3, 3>(0, 0).copy_from(&-skew(&arm));
+            j.fixed_view_mut::<3, 3>(0, 3).fill_with_identity();
+            j
+        });
+        self.blocks[0] += weight * a.tr_mul(&a);
+        self.blocks[1] += weight * b.tr_mul(&b);
+        self.blocks[2] -= weight * b.tr_mul(&a);
+        self.right[0] -= weight * a.tr_mul(&miss);
+        self.right[1] += weight * b.tr_mul(&miss);
+    }
 }
 
 impl Equations {
@@ -50,11 +76,20 @@ impl Equations {
         }
     }
 
+    /// Adds a spring between the motions i < j.
+    pub fn add_spring(&mut self, [i, j]: [u32; 2], spring: &Spring) {
+        for (at, block) in [(i, i), (j, j), (i, j)].into_iter().zip(&spring.blocks) {
+            *self.blocks.entry(at).or_insert_with(Matrix6::zeros) += block;
+        }
+        self.right[i as usize] += spring.right[0];
+        self.right[j as usize] += spring.right[1];
+    }
+
     fn add_terms(&mut self, terms: &[(u32, Twist)], miss: f64, weight: f64) {
         for (i, row) in terms {
             self.right[*i as usize] -= weight * miss * row;
             for (j, other) in terms.iter().filter(|(j, _)| j <= i) {
-                let block = self.blocks.entry((*i, *j)).or_insert_with(Matrix6::zeros);
+                let block = self.blocks.entry((*j, *i)).or_insert_with(Matrix6::zeros);
                 *block += weight * row * other.transpose();
             }
         }
@@ -65,19 +100,39 @@ impl Equations {
     /// # Errors
     /// [`SolveError`].
     pub fn solve(self) -> Result<Vec<Twist>, SolveError> {
-        let mut entries = Entries::default();
-        for ((i, j), block) in &self.blocks {
-            let (i, j) = (6 * *i as usize, 6 * *j as usize);
-            for r in 0..6 {
-                let last = if i == j { r } else { 5 };
-                (0..=last).for_each(|c| entries.add(i + r, j + c, block[(r, c)]));
+        let (starts, rows, values) = self.columns();
+        let mut cholesky = Cholesky::new(starts, rows)?;
+        cholesky.factorize(&values)?;
+        let mut x: Vec<f64> = self.right.iter().flat_map(|t| t.data.0[0]).collect();
+        cholesky.solve(&values, &mut x)?;
+        Ok(x.chunks_exact(6).map(Twist::from_column_slice).collect())
+    }
+
+    /// The lower triangle in compressed columns: starts, rows, values.
+    fn columns(&self) -> (Vec<usize>, Vec<usize>, Vec<f64>) {
+        let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
+        for j in 0..self.right.len() {
+            let below: Vec<(usize, &Matrix6<f64>)> = self
+                .blocks
+                .range((j as u32, 0)..(j as u32 + 1, 0))
+                .map(|((_, i), block)| (*i as usize, block))
+                .filter(|(i, _)| *i > j)
+                .collect();
+            let own = self.blocks.get(&(j as u32, j as u32));
+            for c in 0..6 {
+                for r in c..6 {
+                    let ridge = if r == c { RIDGE[c / 3] } else { 0.0 };
+                    rows.push(6 * j + r);
+                    values.push(own.map_or(0.0, |b| b[(r, c)]) + ridge);
+                }
+                for (i, block) in &below {
+                    rows.extend(6 * i..6 * i + 6);
+                    values.extend(block.column(c).iter());
+                }
+                starts.push(rows.len());
             }
         }
-        let n = 6 * self.right.len();
-        (0..n).for_each(|i| entries.add(i, i, RIDGE[i % 6 / 3]));
-        let mut x: Vec<f64> = self.right.iter().flat_map(|t| t.data.0[0]).collect();
-        entries.factorized(n)?.solve(&mut x)?;
-        Ok(x.chunks_exact(6).map(Twist::from_column_slice).collect())
+        (starts, rows, values)
     }
 }
 
@@ -87,13 +142,22 @@ mod tests {
 
     #[test]
     fn two_points_meet_half_way() {
-        // Two motions, each with a point at its centre, 1 apart along x.
-        let mut equations = Equations::new(2);
+        // Two motions, each with a point above its centre, 1 apart along x.
+        let arms = [Vector::y(), Vector::y()];
+        let mut rows = Equations::new(2);
         for axis in 0..3 {
             let e = Vector::ith(axis, 1.0);
-            let rows = [(0, along(&e, &Vector::y())), (1, -along(&e, &Vector::y()))];
-            equations.add(rows, e.x, 1.0);
+            rows.add(
+                [(0, along(&e, &arms[0])), (1, -along(&e, &arms[1]))],
+                e.x,
+                1.0,
+            );
         }
+        let mut spring = Spring::default();
+        spring.add(arms, Vector::x(), 1.0);
+        let mut equations = Equations::new(2);
+        equations.add_spring([0, 1], &spring);
+        let same = rows.solve().expect("positive definite");
         let found = equations.solve().expect("positive definite");
         let reached = |k: usize| {
             let (omega, v) = (found[k].fixed_rows::<3>(0), found[k].fixed_rows::<3>(3));
@@ -102,6 +166,9 @@ mod tests {
         let gap = Vector::x() + reached(0) - reached(1);
         assert!(gap.norm() < 1e-5, "{gap}");
         assert!((reached(0) + reached(1)).norm() < 1e-9);
+        for (a, b) in same.iter().zip(&found) {
+            assert!((a - b).norm() < 1e-9, "{a} {b}");
+        }
     }
 
     #[test]

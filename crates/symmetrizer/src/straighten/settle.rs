@@ -15,7 +15,7 @@ use crate::field::{Partner, SymmetryField};
 use crate::geom::{Matrix3, Point, Vector};
 use crate::shape::{ClosestPoint, Hit, Surface};
 use crate::straighten::blend::Blend;
-use crate::straighten::equations::{Equations, along};
+use crate::straighten::equations::{Equations, Spring, along};
 use crate::straighten::slopes::{SIGNS, Slope, slopes};
 use crate::straighten::{rotations, solve};
 
@@ -189,29 +189,32 @@ impl<'a> Settling<'a> {
 
     /// Neighbours move alike: their motions take both their places, and points above them, to the same.
     fn agree(&self, equations: &mut Equations, stiff: f64) {
-        let list = &self.land.samples.list;
-        let weight = (stiff + STEADY) / 4.0;
+        let near = &self.land.reach.neighbors;
+        let links = (0..near.len() as u32)
+            .flat_map(|i| near[i as usize].iter().map(move |&j| [i, j]))
+            .filter(|[i, j]| i < j);
+        let links: Vec<[u32; 2]> = links.collect();
+        let springs: Vec<Spring> = links.par_iter().map(|&l| self.spring(l, stiff)).collect();
+        for (link, spring) in links.iter().zip(&springs) {
+            equations.add_spring(*link, spring);
+        }
+    }
+
+    /// What holds two neighbours together.
+    fn spring(&self, link: [u32; 2], stiff: f64) -> Spring {
+        let ends = link.map(|k| &self.land.samples.list[k as usize]);
+        let [a, b] = link.map(|k| &self.motions[k as usize]);
+        let length = (ends[0].position - ends[1].position).norm();
+        let above = ends.map(|e| e.position + length * e.normal);
+        let mut spring = Spring::default();
         // Steps agree and motions agree: of a square for both, the misses count by the share of the latter.
         let share = stiff / (stiff + STEADY);
-        for (i, near) in (0..).zip(&self.land.reach.neighbors) {
-            for &j in near.iter().filter(|&&j| i < j) {
-                let ends = [&list[i as usize], &list[j as usize]];
-                let [a, b] = [i, j].map(|k| &self.motions[k as usize]);
-                let length = (ends[0].position - ends[1].position).norm();
-                let above = ends.map(|e| e.position + length * e.normal);
-                for x in [ends[0].position, ends[1].position, above[0], above[1]] {
-                    let (y, z) = (a.apply(&x), b.apply(&x));
-                    for axis in 0..3 {
-                        let e = Vector::ith(axis, 1.0);
-                        let rows = [
-                            (i, along(&e, &(y - a.center))),
-                            (j, -along(&e, &(z - b.center))),
-                        ];
-                        equations.add(rows, share * (y - z)[axis], weight);
-                    }
-                }
-            }
+        for x in [ends[0].position, ends[1].position, above[0], above[1]] {
+            let (y, z) = (a.apply(&x), b.apply(&x));
+            let weight = (stiff + STEADY) / 4.0;
+            spring.add([y - a.center, z - b.center], share * (y - z), weight);
         }
+        spring
     }
 
     /// A sample comes to lie on the mirrored surface, and its curvatures on the same.
