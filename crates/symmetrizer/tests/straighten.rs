@@ -1,47 +1,56 @@
-//! Symmetry fields and straightening: bends are found and undone, what is straight stays.
+//! Bends: found, judged, undone and put back; what is straight stays, what is not symmetric is not taken for
+//! it.
 #![allow(clippy::print_stdout)]
 mod common;
 
-use common::{load, model, working};
+use common::{load, model, sphere, working};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
 use symmetrizer::detect::{DetectParams, Detection, detect};
+use symmetrizer::field::Reach;
 use symmetrizer::field::grow::Land;
-use symmetrizer::field::{Reach, SymmetryField, find};
+use symmetrizer::field::trust::Verdict;
 use symmetrizer::geom::{Matrix3, Point, Vector, nearest_orthogonal};
 use symmetrizer::shape::{ClosestPoint, Surface};
-use symmetrizer::straighten::straighten;
-use symmetrizer::{Context, Mesh};
+use symmetrizer::straighten::{Bend, straighten};
+use symmetrizer::{Context, Mesh, Params, symmetrize};
 
-struct Bent {
+/// What there is to find a bend on.
+struct Ground {
     surface: Surface,
     found: Detection,
     reach: Reach,
-    field: SymmetryField,
+    closest: ClosestPoint,
 }
 
-fn bent(mesh: &Mesh) -> Bent {
-    let surface = working(mesh).0.surface;
-    let params = DetectParams::default().mirrors_only();
-    let found = detect(&surface, &params, &mut Context::new(0)).expect("a detection");
-    let reach = Reach::new(&found.samples, 0.12);
-    let closest = ClosestPoint::new(&surface);
-    let land = Land::new(&surface, &closest, &found.samples, &reach);
-    let mirrors: Vec<_> = found.symmetries.iter().map(|s| s.q_from_p).collect();
-    Bent {
-        field: find(&land, &mirrors),
-        surface,
-        found,
-        reach,
+impl Ground {
+    fn new(mesh: &Mesh) -> Self {
+        let surface = working(mesh).0.surface;
+        let params = DetectParams::default().mirrors_only();
+        let found = detect(&surface, &params, &mut Context::new(0)).expect("a detection");
+        Self {
+            reach: Reach::new(&found.samples, 0.12),
+            closest: ClosestPoint::new(&surface),
+            surface,
+            found,
+        }
+    }
+
+    fn bend(&self) -> Option<(Bend, Vec<Point>)> {
+        let land = Land::new(
+            &self.surface,
+            &self.closest,
+            &self.found.samples,
+            &self.reach,
+        );
+        let mirrors: Vec<_> = self.found.symmetries.iter().map(|s| s.q_from_p).collect();
+        let bend = Bend::find(&land, &mirrors).expect("solvable")?;
+        let straight = straighten(&land, &bend).expect("solvable").positions;
+        Some((bend, straight))
     }
 }
 
-impl Bent {
-    fn straight(&self) -> Vec<Point> {
-        let done = straighten(&self.surface, &self.found.samples, &self.reach, &self.field);
-        done.expect("straightened").positions
-    }
-}
-
-/// rms distance after the best motion, mirrored or not, fraction of L.
+/// rms distance from `y` after the best similarity, mirrored or not, units of `y`.
 fn apart(x: &[Point], y: &[Point]) -> f64 {
     let n = x.len() as f64;
     let mean = |p: &[Point]| p.iter().map(|p| p.coords).sum::<Vector>() / n;
@@ -50,49 +59,185 @@ fn apart(x: &[Point], y: &[Point]) -> f64 {
     let moment: Matrix3 = pairs().map(|(p, q)| q * p.transpose()).sum();
     let missed = [false, true].map(|mirrored| {
         let r = nearest_orthogonal(&moment, mirrored);
+        let scale = moment.dot(&r) / pairs().map(|(p, _)| p.norm_squared()).sum::<f64>();
         pairs()
-            .map(|(p, q)| (r * p - q).norm_squared())
+            .map(|(p, q)| (scale * (r * p) - q).norm_squared())
             .sum::<f64>()
     });
     (missed[0].min(missed[1]) / n).sqrt()
 }
 
-#[test]
-fn what_is_straight_stays() {
-    let Some(path) = model("truth/spot_exact.obj") else {
-        return;
-    };
-    let spot = bent(&load(&path));
-    println!("cover {}", spot.field.cover());
-    assert!(spot.field.cover() > 0.99);
-    let moved = apart(&spot.straight(), &spot.surface.positions);
-    println!("moved {moved:.2e}");
-    assert!(moved < 5e-4, "{moved}");
+/// The mesh with `deform` applied to places whose middle is the origin, `along` an axis of this length.
+fn deformed(mesh: &Mesh, along: usize, deform: impl Fn(Point, f64) -> Point) -> Mesh {
+    let (low, high) =
+        mesh.positions
+            .iter()
+            .fold((mesh.positions[0], mesh.positions[0]), |(a, b), p| {
+                (
+                    a.coords.inf(&p.coords).into(),
+                    b.coords.sup(&p.coords).into(),
+                )
+            });
+    let middle = nalgebra::center(&low, &high);
+    let length = high[along] - low[along];
+    let mut bent = mesh.clone();
+    for p in &mut bent.positions {
+        *p = deform(Point::from(*p - middle), length);
+    }
+    bent
+}
+
+/// Bent by `degrees` over its length, sideways along `side`.
+fn bent(mesh: &Mesh, degrees: f64, along: usize, side: usize) -> Mesh {
+    deformed(mesh, along, |p, length| {
+        let radius = length / degrees.to_radians();
+        let (sin, cos) = (p[along] / radius).sin_cos();
+        let mut q = p;
+        q[side] = radius - (radius - p[side]) * cos;
+        q[along] = (radius - p[side]) * sin;
+        q
+    })
+}
+
+/// Twisted by `degrees` over its length.
+fn twisted(mesh: &Mesh, degrees: f64, along: usize) -> Mesh {
+    deformed(mesh, along, |p, length| {
+        let (sin, cos) = (degrees.to_radians() * p[along] / length).sin_cos();
+        let (a, b) = ((along + 1) % 3, (along + 2) % 3);
+        let mut q = p;
+        q[a] = cos * p[a] - sin * p[b];
+        q[b] = sin * p[a] + cos * p[b];
+        q
+    })
+}
+
+/// The positions of a mesh that working surfaces keep, in their order.
+fn kept(mesh: &Mesh) -> Vec<Point> {
+    let (working, _) = working(mesh);
+    let of = &working.document_of_vertex;
+    of.iter().map(|&v| mesh.positions[v as usize]).collect()
+}
+
+/// A sphere with `bumps` random hills and hollows of the given width and height.
+fn blob(seed: u64, bumps: usize, width: f64, height: f64) -> Mesh {
+    let mut rng = Pcg64::seed_from_u64(seed);
+    let mut number = || 2.0 * rng.random::<f64>() - 1.0;
+    let hills: Vec<(Vector, f64)> = (0..bumps)
+        .map(|_| {
+            let way = Vector::new(number(), number(), number());
+            (way.normalize(), 2.0 * height * number())
+        })
+        .collect();
+    let mut mesh = sphere(5);
+    for p in &mut mesh.positions {
+        let near = |(c, a): &(Vector, f64)| {
+            a * (-(p.coords - c).norm_squared() / (2.0 * width * width)).exp()
+        };
+        let radius = hills.iter().map(near).sum::<f64>().exp();
+        *p = Point::from(radius * p.coords);
+    }
+    mesh
 }
 
 #[test]
-fn a_bent_cow_is_straightened() {
+fn what_is_straight_has_no_bend() {
+    let Some(path) = model("truth/spot_exact.obj") else {
+        return;
+    };
+    assert!(Ground::new(&load(&path)).bend().is_none());
+}
+
+#[test]
+fn bent_and_twisted_animals_come_out_straight() {
+    let cases = [
+        ("3d/cow.obj", "bend", 90.0, 0, 2, 0.93),
+        ("3d/homer.obj", "bend", 60.0, 1, 0, 0.92),
+        ("3d/spot_seams.obj", "bend", 60.0, 2, 0, 0.85),
+        ("3d/cow.obj", "twist", 50.0, 0, 2, 0.9),
+    ];
+    for (name, kind, degrees, along, side, undone) in cases {
+        let Some(path) = model(name) else { return };
+        let mesh = load(&path);
+        let bent = match kind {
+            "bend" => bent(&mesh, degrees, along, side),
+            _ => twisted(&mesh, degrees, along),
+        };
+        let ground = Ground::new(&bent);
+        let (bend, straight) = ground.bend().expect("a bend");
+        let rest = kept(&mesh);
+        assert_eq!(rest.len(), straight.len());
+        let [before, after] = [&ground.surface.positions, &straight].map(|x| apart(x, &rest));
+        let share = 1.0 - after / before;
+        println!(
+            "{name} {kind} {degrees}: {share:.3} undone, {:?} {:.2}, {:.0} degrees",
+            bend.trust.verdict(),
+            bend.trust.score(),
+            bend.degrees
+        );
+        assert!(share > undone, "{name}: {share}");
+        assert_eq!(bend.trust.verdict(), Verdict::Accept, "{name}");
+        assert!(
+            (bend.degrees / degrees - 1.0).abs() < 0.25,
+            "{}",
+            bend.degrees
+        );
+    }
+}
+
+#[test]
+fn what_is_not_symmetric_is_not_accepted() {
+    let kinds = [
+        (6, 0.6, 0.4),
+        (12, 0.45, 0.4),
+        (20, 0.3, 0.35),
+        (30, 0.25, 0.4),
+        (50, 0.18, 0.3),
+    ];
+    for (k, (bumps, width, height)) in kinds.into_iter().enumerate() {
+        for copy in 0..2 {
+            let ground = Ground::new(&blob(100 + 10 * k as u64 + copy, bumps, width, height));
+            let verdict = ground.bend().map(|(bend, _)| {
+                println!(
+                    "{bumps} bumps: {:.2} {:.2}",
+                    bend.trust.score(),
+                    bend.trust.relief
+                );
+                bend.trust.verdict()
+            });
+            println!("{bumps} bumps: {verdict:?}");
+            assert_ne!(verdict, Some(Verdict::Accept), "{bumps} bumps, {copy}");
+        }
+    }
+    if let Some(path) = model("truth/control_asymmetric_blob.ply") {
+        let verdict = Ground::new(&load(&path)).bend();
+        assert!(verdict.is_none_or(|(bend, _)| bend.trust.verdict() == Verdict::Refuse));
+    }
+}
+
+#[test]
+fn a_run_straightens_or_keeps_the_pose() {
     let Some(path) = model("truth/cow_bend45.off") else {
         return;
     };
-    let Some(truth) = model("truth/cow_bend45.truth.json") else {
-        return;
-    };
-    let cow = bent(&load(&path));
-    let text = std::fs::read_to_string(truth).expect("readable");
-    let truth: serde_json::Value = serde_json::from_str(&text).expect("JSON");
-    let rest: Vec<[f64; 3]> = serde_json::from_value(truth["rest"].clone()).expect("a rest shape");
-    let rest: Vec<Point> = rest.into_iter().map(Point::from).collect();
-    // Both in units of their own size: the bend leaves the mean square distance of neighbours.
-    let size = |x: &[Point]| {
-        let edges = cow.surface.sides();
-        let length = |[u, v]: [u32; 2]| (x[u as usize] - x[v as usize]).norm();
-        edges.into_iter().map(length).sum::<f64>()
-    };
-    let scale = size(&cow.surface.positions) / size(&rest);
-    let rest: Vec<Point> = rest.iter().map(|x| x * scale).collect();
-    let before = apart(&cow.surface.positions, &rest);
-    let after = apart(&cow.straight(), &rest);
-    println!("cover {}: {before:.4} -> {after:.4}", cow.field.cover());
-    assert!(after < 0.12 * before, "{before} -> {after}");
+    let cow = load(&path);
+    let mut params = Params::default();
+    let done = symmetrize(&cow, &params, &mut Context::new(0)).expect("done");
+    let bend = done.report.bend.as_ref().expect("a bend");
+    let result = done.report.result.as_ref().expect("a result");
+    println!("{bend:?} {:?}", result.asymmetry.mean);
+    assert_eq!(bend.removed, bend.degrees);
+    assert!(result.asymmetry.mean < 0.05, "{}", result.asymmetry.mean);
+
+    params.straighten.share = 0.0;
+    let done = symmetrize(&cow, &params, &mut Context::new(0)).expect("done");
+    let bend = done.report.bend.as_ref().expect("a bend");
+    let kept = bend.kept.as_ref().expect("kept");
+    println!("{bend:?}");
+    assert_eq!(bend.removed, 0.0);
+    assert!(kept.across < 0.1, "{}", kept.across);
+    assert!(kept.line < 0.3, "{}", kept.line);
+
+    params.set("straighten.when", "\"never\"").expect("known");
+    let done = symmetrize(&cow, &params, &mut Context::new(0)).expect("done");
+    assert!(done.report.bend.is_none());
 }

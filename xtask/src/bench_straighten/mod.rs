@@ -98,7 +98,7 @@ fn one(name: &str, args: &Args) -> Result<[String; 11]> {
     let bend = Bend::find(&land, &mirrors)?;
     let looked = lap();
     let (field, positions) = match &bend {
-        Some(bend) => (bend.field.clone(), straighten(&land, bend)?.positions),
+        Some(bend) => (bend.settled.clone(), straighten(&land, bend)?.positions),
         None => (find(&land, &mirrors), working.surface.positions.clone()),
     };
     let straightened = lap();

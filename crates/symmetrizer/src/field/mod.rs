@@ -10,6 +10,8 @@ pub mod reach;
 pub mod seeds;
 pub mod trust;
 
+use rayon::prelude::*;
+
 use crate::geom::{Point, Vector};
 use crate::shape::SurfacePoint;
 use crate::transform::Isometry;
@@ -44,7 +46,10 @@ pub struct SymmetryField {
 
 /// The field that detection's `mirrors` grow into on `land`: of several starts the one that covers most.
 pub fn find(land: &grow::Land<'_>, mirrors: &[Isometry]) -> SymmetryField {
-    let grown = seeds::CLAIMS.map(|claim| grow(land, seeds::seeds(land, mirrors, claim)));
+    let claims = seeds::CLAIMS.par_iter();
+    let grown: Vec<SymmetryField> = claims
+        .map(|&claim| grow(land, seeds::seeds(land, mirrors, claim)))
+        .collect();
     let best = grown
         .into_iter()
         .max_by(|a, b| a.cover().total_cmp(&b.cover()));
@@ -55,6 +60,15 @@ pub fn find(land: &grow::Land<'_>, mirrors: &[Isometry]) -> SymmetryField {
 }
 
 impl SymmetryField {
+    /// The field over the `kept` samples only.
+    pub fn of(&self, kept: &[bool]) -> Self {
+        let partners = self.partners.iter().zip(kept);
+        Self {
+            partners: partners.map(|(q, kept)| q.filter(|_| *kept)).collect(),
+            maps: self.maps.clone(),
+        }
+    }
+
     /// The share of the samples that have a partner.
     pub fn cover(&self) -> f64 {
         let paired = self.partners.iter().flatten().count();

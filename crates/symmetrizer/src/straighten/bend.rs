@@ -16,6 +16,8 @@ const MOST: f64 = 0.98;
 /// A bend that was found on a shape.
 pub struct Bend {
     /// Partners and local isometries, settled.
+    pub settled: SymmetryField,
+    /// Those that are trusted; all of them where the whole is refused.
     pub field: SymmetryField,
     /// How far they are to be trusted.
     pub trust: Trust,
@@ -39,16 +41,16 @@ impl Bend {
         if spread(land, &grown) < LEAST {
             return Ok(None);
         }
-        let mut field = settle(land, &grown)?;
-        let trust = Trust::of(land, &field);
-        if trust.verdict() != Verdict::Refuse {
-            for (partner, trusted) in field.partners.iter_mut().zip(&trust.trusted) {
-                *partner = partner.filter(|_| *trusted);
-            }
-        }
+        let settled = settle(land, &grown)?;
+        let trust = Trust::of(land, &settled);
+        let field = match trust.verdict() {
+            Verdict::Refuse => settled.clone(),
+            _ => settled.of(&trust.trusted),
+        };
         let turns = rotations::solved(land.reach, &field)?;
         let degrees = span(&shared(&turns, &field));
         Ok(Some(Self {
+            settled,
             field,
             trust,
             turns,

@@ -3,15 +3,25 @@
 //! A place on the spine and its two sides are turned by the same rotation, so that the sides stay mirror
 //! images of each other: the mirror is bent with the shape.
 
+use rayon::prelude::*;
+
 use crate::deform::poisson::integrate;
-use crate::error::Result;
+use crate::deform::smooth::SmoothField;
+use crate::error::{Error, Result};
 use crate::field::grow::Land;
 use crate::geom::{Matrix3, Point, Vector};
-use crate::shape::{ClosestPoint, Surface};
+use crate::shape::{ClosestPoint, Surface, SurfacePoint};
 use crate::straighten::bend::shared;
 use crate::straighten::blend::Blend;
 use crate::straighten::{Bend, Straightened};
 use crate::transform::{Isometry, Plane};
+
+/// Partners on a symmetric shape lie within this distance of the image, fraction of L, and face its way to
+/// within this cosine.
+const REACH: f64 = 0.01;
+const MIN_COS: f64 = 0.5;
+/// Lengths over which the last moves are smoothed, one after the other, fractions of L.
+const SMOOTH: [f64; 3] = [0.03, 0.015, 0.007];
 
 /// A symmetric shape in its pose.
 pub struct Posed {
@@ -43,41 +53,95 @@ pub fn bend_again(
             .into_inner()
     };
     let back: Vec<Matrix3> = shared(&bend.turns, &bend.field).iter().map(back).collect();
-    let at_vertices = Blend::new(land.surface, land.samples).rotations(&back);
-    let positions = integrate(symmetric, &at_vertices, None, &[])?;
-    let posed = symmetric.with_positions(positions);
-    let (across, line) = misfits(land, bend, (symmetric, plane), (&posed, &back));
+    let turns = Blend::new(land.surface, land.samples).rotations(&back);
+    let bent = integrate(symmetric, &turns, None, &[])?;
+    let mirror = Isometry::mirror(plane);
+    let closest = ClosestPoint::new(symmetric);
+    let normals: Vec<Vector> = turns.iter().map(|turn| turn * plane.normal).collect();
+    let sides = Sides {
+        normals,
+        partners: (0..symmetric.positions.len())
+            .into_par_iter()
+            .map(|v| {
+                let image = mirror.apply(&symmetric.positions[v]);
+                let normal = mirror.rotate(&symmetric.vertex_normals[v]);
+                let hit = closest.nearest_facing(&image, &normal, MIN_COS, REACH)?;
+                Some(hit.at)
+            })
+            .collect(),
+    };
+    let mut posed = symmetric.with_positions(bent);
+    for length in SMOOTH {
+        posed = sides.opposite(&posed, length)?;
+    }
     Ok(Posed {
+        across: sides.across(&posed),
+        line: sides.line(&posed, land.surface),
         positions: posed.positions,
-        across,
-        line,
     })
 }
 
-/// Mean distance of partners from opposite, and rms way of the middle between them from the input.
-fn misfits(
-    land: &Land<'_>,
-    bend: &Bend,
-    (symmetric, plane): (&Surface, &Plane),
-    (posed, back): (&Surface, &[Matrix3]),
-) -> (f64, f64) {
-    let mirror = Isometry::mirror(plane);
-    let closest = ClosestPoint::new(symmetric);
-    let (mut across, mut line, mut count) = (0.0, 0.0, 0.0);
-    let trusted = land.samples.list.iter().zip(&bend.field.partners);
-    for ((sample, partner), back) in trusted.zip(back) {
-        let x = symmetric.point(&sample.at);
-        let hit = closest.nearest(&mirror.apply(&x), f64::INFINITY);
-        let (Some(_), Some(hit)) = (partner, hit) else {
-            continue;
+/// The two sides of a shape.
+struct Sides {
+    /// Normal of the bent mirror at each vertex.
+    normals: Vec<Vector>,
+    /// The partner of each vertex.
+    partners: Vec<Option<SurfacePoint>>,
+}
+
+impl Sides {
+    /// For each vertex the part of the way to its partner that does not run across the mirror.
+    fn misses(&self, posed: &Surface) -> Vec<Vector> {
+        let miss = |v: usize| {
+            let Some(at) = &self.partners[v] else {
+                return Vector::zeros();
+            };
+            let corners = posed.triangles[at.face as usize].iter().zip(at.bary);
+            let there: Vector = corners.map(|(&c, b)| self.normals[c as usize] * b).sum();
+            // One normal for both, as both have it when they ask.
+            let normal = (self.normals[v] + there).normalize();
+            let way = posed.point(at) - posed.positions[v];
+            way - normal * normal.dot(&way)
         };
-        let normal: Vector = back * plane.normal;
-        let middle = |s: &Surface| nalgebra::center(&s.point(&sample.at), &s.point(&hit.at));
-        let way = posed.point(&hit.at) - posed.point(&sample.at);
-        across += (way - normal * normal.dot(&way)).norm();
-        line += (middle(posed) - middle(land.surface)).norm_squared();
-        count += 1.0;
+        (0..self.normals.len()).into_par_iter().map(miss).collect()
     }
-    let count = f64::max(count, 1.0);
-    (across / count, (line / count).sqrt())
+
+    /// Each side half of the way to where it is opposite the other; what integration leaves is small, and
+    /// smooth but for partners that are none.
+    fn opposite(&self, posed: &Surface, length: f64) -> Result<Surface> {
+        let halves: Vec<Vector> = self.misses(posed).iter().map(|m| m / 2.0).collect();
+        let known = |at: &Option<SurfacePoint>| f64::from(u8::from(at.is_some()));
+        let confidence: Vec<f64> = self.partners.iter().map(known).collect();
+        let moves = SmoothField::new(posed, None)
+            .and_then(|mut field| field.solve(&halves, &confidence, length))
+            .map_err(|_| Error::Numerical {
+                stage: "bend again",
+                step: 0,
+                what: "the smoothing system could not be solved".into(),
+            })?;
+        let moved = posed.positions.iter().zip(moves);
+        Ok(posed.with_positions(moved.map(|(x, way)| x + way).collect()))
+    }
+
+    /// Mean miss, weighted by area.
+    fn across(&self, posed: &Surface) -> f64 {
+        let misses = self.misses(posed);
+        let weighted = misses.iter().zip(&posed.vertex_areas);
+        weighted.map(|(m, a)| m.norm() * a).sum::<f64>() / posed.area()
+    }
+
+    /// rms way of the middle between partners from that in `input`, weighted by area.
+    fn line(&self, posed: &Surface, input: &Surface) -> f64 {
+        let middle = |s: &Surface, v: usize, at: &SurfacePoint| {
+            nalgebra::center(&s.positions[v], &s.point(at))
+        };
+        let squares = self.partners.iter().enumerate().map(|(v, at)| {
+            let at = at.as_ref();
+            at.map_or(0.0, |at| {
+                let way = middle(posed, v, at) - middle(input, v, at);
+                posed.vertex_areas[v] * way.norm_squared()
+            })
+        });
+        (squares.sum::<f64>() / posed.area()).sqrt()
+    }
 }

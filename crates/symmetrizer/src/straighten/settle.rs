@@ -34,7 +34,7 @@ const TOO_FAR: f64 = 0.03;
 /// Partners face each other to within this cosine.
 const MIN_COS: f64 = 0.5;
 /// Rounds at the most, and the share over which the stiffness falls.
-const ROUNDS: u32 = 40;
+const ROUNDS: u32 = 30;
 const FALLS: f64 = 0.7;
 /// Settled where the images move less in the mean, fraction of L.
 const SETTLED: f64 = 2e-5;
