@@ -28,6 +28,11 @@ struct Cli {
 #[derive(Subcommand)]
 enum Verb {
     Run(commands::run::RunArgs),
+    /// Undo a bend or a twist, and nothing else
+    ///
+    /// Finds mirrors that vary along the shape, judges whether they are there, and turns the shape, place by
+    /// place, until they are one. What is asymmetric besides stays so.
+    Straighten(commands::run::RunArgs),
     Detect(commands::detect::DetectArgs),
     Plot(commands::plot::PlotArgs),
     Measure(commands::measure::MeasureArgs),
@@ -65,6 +70,7 @@ fn answer(cli: &Cli) -> Result<Answer> {
     let desk = Desk::new(&cli.common, cancel_on_signal()?)?;
     match &cli.verb {
         Verb::Run(args) => commands::run::run(args, &desk),
+        Verb::Straighten(args) => commands::run::straighten(args, &desk),
         Verb::Detect(args) => commands::detect::detect(args, &desk),
         Verb::Plot(args) => commands::plot::plot(args, &desk),
         Verb::Measure(args) => commands::measure::measure(args, &desk),

@@ -19,7 +19,8 @@ fn the_creature_looks_ahead_and_every_file_appears() {
     assert_eq!(desk.files(), ["in.ply", "out.ply", "p.png", "r.json"]);
     assert_eq!(stderr(&done), "", "no bars where there is no terminal");
     for part in [
-        "merged 0 and 1",
+        "straightened: a bend of",
+        "symmetric about its bent axis",
         "outcome      converged",
         "wrote        out.ply",
     ] {
@@ -63,7 +64,11 @@ fn check_keys(report: &serde_json::Value) {
     assert_eq!(report["input"]["file"], "model:creature");
     assert_eq!(report["params"]["sample"]["count"], 800);
     assert_eq!(report["result"]["symmetries"][0]["id"], 0);
-    assert_eq!(report["steps"][0]["step"], "contract");
+    assert_eq!(report["steps"][0]["step"], "straighten");
+    has(
+        &report["bend"],
+        "verdict score trusted likeness relief degrees removed",
+    );
 }
 
 #[test]
@@ -86,18 +91,66 @@ fn one_and_two_threads_write_the_same_bytes() {
 #[test]
 fn real_models_come_out_symmetric() {
     let cases = [
-        ("truth/spot_headturn30.obj", 0.12, "merged"),
-        ("3d/cheburashka.obj", 0.1, "contracted 0"),
+        (
+            "truth/spot_headturn30.obj",
+            "--straighten=1",
+            0.12,
+            "straightened",
+        ),
+        (
+            "truth/spot_headturn30.obj",
+            "--no-straighten",
+            0.12,
+            "merged",
+        ),
+        ("3d/cheburashka.obj", "--no-straighten", 0.1, "contracted 0"),
     ];
-    for (file, limit, part) in cases {
+    for (file, flag, limit, part) in cases {
         let Some(path) = data(file) else { return };
         let desk = Desk::new();
         let mut run = desk.symmetrize(&["run", &path, "-o", "out.obj", "--report", "r.json"]);
-        let done = run.args(FAST).assert().success();
+        let done = run.arg(flag).args(FAST).assert().success();
         let mean = number(&desk.json("r.json"), "/result/asymmetry/mean");
         assert!(mean < limit, "{file}: {mean} % of D");
         assert!(stdout(&done).contains(part), "{}", stdout(&done));
     }
+}
+
+#[test]
+fn a_pose_may_be_kept_and_a_bend_undone_by_itself() {
+    let desk = Desk::new();
+    let mut run = desk.symmetrize(&["run", "model:creature", "-o", "kept.ply", "--keep-pose"]);
+    let done = run
+        .args(["--report", "r.json"])
+        .args(FAST)
+        .assert()
+        .success();
+    assert!(
+        stdout(&done).contains("degrees kept: partners"),
+        "{}",
+        stdout(&done)
+    );
+    let report = desk.json("r.json");
+    assert!(number(&report, "/bend/kept/across") < 0.1);
+    assert!(number(&report, "/bend/kept/line") < 0.5);
+    assert_eq!(number(&report, "/bend/removed"), 0.0);
+
+    let mut only = desk.symmetrize(&["straighten", "model:creature", "-o", "straight.ply"]);
+    let done = only.args(FAST).assert().success();
+    assert!(stdout(&done).contains("straightened: a bend of"));
+    assert!(!stdout(&done).contains("finished"));
+    let mut none = desk.symmetrize(&["straighten", "model:creature-at-rest", "-o", "none.ply"]);
+    none.args(FAST).assert().code(1);
+    assert_eq!(desk.files(), ["kept.ply", "r.json", "straight.ply"]);
+    let both = [
+        "run",
+        "model:creature",
+        "-o",
+        "a.ply",
+        "--keep-pose",
+        "--straighten=0.5",
+    ];
+    desk.symmetrize(&both).assert().code(2);
 }
 
 #[test]

@@ -118,6 +118,29 @@ pub fn symmetrize_with(
     params: &Params,
     ctx: &mut Context<'_>,
 ) -> Result<Symmetrized> {
+    made(mesh, stiffness, params, false, ctx)
+}
+
+/// Undoes the bend of `mesh` and does nothing else; where none is found that the parameters accept, the
+/// outcome is [`Outcome::NoSymmetry`].
+///
+/// # Errors
+/// Those of [`symmetrize`].
+pub fn unbend(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result<Symmetrized> {
+    let mut params = params.clone();
+    params.optimize.final_steps = 0;
+    params.optimize.finish_rounds = 0;
+    made(mesh, &Stiffness::default(), &params, true, ctx)
+}
+
+/// [`symmetrize_with`], or [`unbend`] where `only` that is to be done.
+fn made(
+    mesh: &Mesh,
+    stiffness: &Stiffness,
+    params: &Params,
+    only: bool,
+    ctx: &mut Context<'_>,
+) -> Result<Symmetrized> {
     mesh.check()?;
     stiffness.check(mesh)?;
     params.check()?;
@@ -135,13 +158,19 @@ pub fn symmetrize_with(
     let exact = measured.max <= EXACT && !before.symmetries().is_empty();
     let mut bend = None;
     let done = if exact {
-        Optimized::unmoved(surface, &before.detection, Outcome::Converged)
+        let outcome = if only {
+            Outcome::NoSymmetry
+        } else {
+            Outcome::Converged
+        };
+        Optimized::unmoved(surface, &before.detection, outcome)
     } else {
         let mean = measured.mean / 100.0 * before.diagonal;
         let looked = bent::unbend(&before, mean, &params.straighten, settings, ctx)?;
         bend = looked.report;
         match looked.done {
             Some(done) => done,
+            None if only => Optimized::unmoved(surface, &before.detection, Outcome::NoSymmetry),
             None => optimize(surface, &before.detection, settings, ctx)?,
         }
     };

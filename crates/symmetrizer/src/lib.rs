@@ -29,7 +29,7 @@ pub use context::{CancelToken, Context, Event};
 pub use error::{Error, Result, Warning};
 pub use job::{
     Detected, Measured, Symmetrized, detect_document, detect_in, measure_in, symmetrize,
-    symmetrize_with,
+    symmetrize_with, unbend,
 };
 pub use optimize::schedule::Outcome;
 pub use params::Params;

@@ -6,7 +6,9 @@ use clap::Args;
 use symmetrizer::deform::Stiffness;
 use symmetrizer::job::pictures;
 use symmetrizer::shape::{Document, io};
-use symmetrizer::{Context, Error, Outcome, Params, Result, Symmetrized, Warning, symmetrize_with};
+use symmetrizer::{
+    Context, Error, Outcome, Params, Result, Symmetrized, Warning, symmetrize_with, unbend,
+};
 
 use crate::Answer;
 use crate::files::{MeshFile, PictureFile, ReportFile, check_distinct, commit};
@@ -63,13 +65,34 @@ struct Files {
 
 /// The verb.
 pub fn run(args: &RunArgs, desk: &Desk) -> Result<Answer> {
+    let stiffness = args.stiffness()?;
+    carry_out(args, desk, |document, params, ctx| {
+        symmetrize_with(&document.mesh, &stiffness, params, ctx)
+    })
+}
+
+/// The verb `straighten`.
+pub fn straighten(args: &RunArgs, desk: &Desk) -> Result<Answer> {
+    if args.stiffness.is_some() {
+        let what = "a bend is undone by rotations; stiffness has no say in it";
+        return Err(Error::params("--stiffness", what));
+    }
+    carry_out(args, desk, |document, params, ctx| {
+        unbend(&document.mesh, params, ctx)
+    })
+}
+
+/// Reads, does the `work`, writes.
+fn carry_out(
+    args: &RunArgs,
+    desk: &Desk,
+    work: impl FnOnce(&Document, &Params, &mut Context<'_>) -> Result<Symmetrized>,
+) -> Result<Answer> {
     let params = args.params()?;
     let files = Files::reserve(args)?;
     let mut ctx = desk.context();
     let document = args.input.read(&mut ctx)?;
-    let stiffness = args.stiffness()?;
-    let mut job = symmetrize_with(&document.mesh, &stiffness, &params, &mut ctx)
-        .map_err(|e| args.input.blame(e))?;
+    let mut job = work(&document, &params, &mut ctx).map_err(|e| args.input.blame(e))?;
     job.report.input.shape.file = Some(args.input.name());
     if let (Some(report), Some(text)) = (&mut job.report.stiffness, &args.stiffness) {
         report.file = text.parse::<f64>().is_err().then(|| text.clone());

@@ -38,7 +38,8 @@ pub fn run(report: &Report) -> String {
     let mut text = shape(&report.input.shape);
     text += "\n";
     let Some(result) = &report.result else {
-        return text + &symmetries(&report.input, true) + &warnings(&report.warnings);
+        let bend = report.bend.as_ref().map_or_else(String::new, bend);
+        return text + &symmetries(&report.input, true) + &bend + &warnings(&report.warnings);
     };
     text += &symmetries(&report.input, false);
     text += "\n";

@@ -321,7 +321,8 @@ impl Schedule<'_> {
         asymmetry_before: f64,
         ctx: &mut Context<'_>,
     ) -> Result<Optimized> {
-        if self.outcome != Outcome::EnergyLimit {
+        let wanted = self.settings.optimize.final_steps > 0;
+        if wanted && self.outcome != Outcome::EnergyLimit {
             plane = ctx.stage("contract whole", |ctx| self.contract_whole(plane, ctx))?;
         }
         let mut positions = self.moving.deformer.positions();
