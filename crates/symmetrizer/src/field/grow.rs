@@ -20,6 +20,8 @@ pub struct Land<'a> {
     pub samples: &'a Samples,
     /// What lies around each sample.
     pub reach: &'a Reach,
+    /// Stiffness of each face, where it is not 1 everywhere.
+    pub stiffness: Option<&'a [f64]>,
     index: PointIndex<3>,
 }
 
@@ -60,7 +62,19 @@ impl<'a> Land<'a> {
             closest,
             samples,
             reach,
+            stiffness: None,
         }
+    }
+
+    /// The same with a stiffness for each face.
+    pub fn with_stiffness(self, stiffness: Option<&'a [f64]>) -> Self {
+        Self { stiffness, ..self }
+    }
+
+    /// Stiffness between two samples: the mean of theirs.
+    pub fn firmness(&self, [i, j]: [u32; 2]) -> f64 {
+        let at = |k: u32| self.samples.list[k as usize].at.face as usize;
+        self.stiffness.map_or(1.0, |s| (s[at(i)] + s[at(j)]) / 2.0)
     }
 
     /// The partner of sample `s` under `t`, where the surface lies within `tau` of its image and faces its

@@ -44,7 +44,7 @@ pub(super) fn unbend(
     let samples = &before.detection.samples;
     let reach = Reach::new(samples, REACH);
     let closest = ClosestPoint::new(surface);
-    let land = Land::new(surface, &closest, samples, &reach);
+    let land = Land::new(surface, &closest, samples, &reach).with_stiffness(settings.stiffness);
     let mirrors: Vec<_> = before.symmetries().iter().map(|s| s.q_from_p).collect();
     let found = ctx.stage("bend", |_| Bend::find(&land, &mirrors))?;
     let Some(bend) = found else {

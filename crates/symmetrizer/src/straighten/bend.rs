@@ -47,7 +47,7 @@ impl Bend {
             Verdict::Refuse => settled.clone(),
             _ => settled.of(&trust.trusted),
         };
-        let turns = rotations::solved(land.reach, &field)?;
+        let turns = rotations::solved(land, &field)?;
         let degrees = span(&shared(&turns, &field));
         Ok(Some(Self {
             settled,

@@ -62,7 +62,7 @@ fn solve(land: &Land<'_>, field: &SymmetryField, turns: &[Matrix3]) -> Result<Ve
             })
         })
         .collect();
-    integrate_tied(land.surface, &at_vertices, &ties)
+    integrate_tied(land.surface, &at_vertices, land.stiffness, &ties)
 }
 
 /// Positions whose mirror is x = 0, moved over `surface`.

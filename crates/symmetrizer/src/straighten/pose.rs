@@ -54,7 +54,7 @@ pub fn bend_again(
     };
     let back: Vec<Matrix3> = shared(&bend.turns, &bend.field).iter().map(back).collect();
     let turns = Blend::new(land.surface, land.samples).rotations(&back);
-    let bent = integrate(symmetric, &turns, None, &[])?;
+    let bent = integrate(symmetric, &turns, land.stiffness, &[])?;
     let mirror = Isometry::mirror(plane);
     let closest = ClosestPoint::new(symmetric);
     let normals: Vec<Vector> = turns.iter().map(|turn| turn * plane.normal).collect();

@@ -7,7 +7,8 @@
 
 use crate::deform::solver::{Entries, Factorized, SolveError};
 use crate::error::Error;
-use crate::field::{Reach, SymmetryField};
+use crate::field::SymmetryField;
+use crate::field::grow::Land;
 use crate::geom::{Matrix3, Vector, nearest_orthogonal};
 
 /// W, beside this much for all edges of a sample.
@@ -28,17 +29,17 @@ const SHIFT: f64 = 1e-6;
 ///
 /// # Errors
 /// [`Error::Numerical`].
-pub fn solved(reach: &Reach, field: &SymmetryField) -> Result<Vec<Matrix3>, Error> {
-    rotations(reach, field).map_err(|_| Error::Numerical {
+pub fn solved(land: &Land<'_>, field: &SymmetryField) -> Result<Vec<Matrix3>, Error> {
+    rotations(land, field).map_err(|_| Error::Numerical {
         stage: "straighten",
         step: 0,
         what: "the rotation field could not be solved for".into(),
     })
 }
 
-fn rotations(reach: &Reach, field: &SymmetryField) -> Result<Vec<Matrix3>, SolveError> {
-    let first = rows(reach, field, -1.0, 1)?;
-    let others = rows(reach, field, 1.0, 2)?;
+fn rotations(land: &Land<'_>, field: &SymmetryField) -> Result<Vec<Matrix3>, SolveError> {
+    let first = rows(land, field, -1.0, 1)?;
+    let others = rows(land, field, 1.0, 2)?;
     let matrix = |i: usize| {
         Matrix3::from_rows(&[
             first[0][i].transpose(),
@@ -46,7 +47,7 @@ fn rotations(reach: &Reach, field: &SymmetryField) -> Result<Vec<Matrix3>, Solve
             others[1][i].transpose(),
         ])
     };
-    let mut all: Vec<Matrix3> = (0..reach.neighbors.len()).map(matrix).collect();
+    let mut all: Vec<Matrix3> = (0..land.reach.neighbors.len()).map(matrix).collect();
     let mut hands: Vec<f64> = all.iter().map(Matrix3::determinant).collect();
     if crate::geom::median(&mut hands).unwrap_or(1.0) < 0.0 {
         for m in &mut all {
@@ -58,14 +59,14 @@ fn rotations(reach: &Reach, field: &SymmetryField) -> Result<Vec<Matrix3>, Solve
 
 /// The `wanted` smallest eigenvectors for the rows of sign `s`, a vector for each sample.
 fn rows(
-    reach: &Reach,
+    land: &Land<'_>,
     field: &SymmetryField,
     s: f64,
     wanted: usize,
 ) -> Result<Vec<Vec<Vector>>, SolveError> {
-    let n = reach.neighbors.len();
+    let n = land.reach.neighbors.len();
     let mut entries = Entries::default();
-    add_edges(&mut entries, reach);
+    add_edges(&mut entries, land);
     let mut mass = vec![FOLLOWS; n];
     for (p, (partner, map)) in field.partners.iter().zip(&field.maps).enumerate() {
         if let (Some(partner), Some(map)) = (partner, map) {
@@ -89,12 +90,15 @@ fn rows(
     Ok(vectors.iter().take(wanted).map(split).collect())
 }
 
-/// w |rho_i - rho_j|^2 over the edges of the graph of neighbours, 8 for each sample in the mean.
-fn add_edges(entries: &mut Entries, reach: &Reach) {
+/// w |rho_i - rho_j|^2 over the edges of the graph of neighbours, 8 for each sample in the mean, more where
+/// the surface is stiff.
+fn add_edges(entries: &mut Entries, land: &Land<'_>) {
+    let reach = land.reach;
     let links: usize = reach.neighbors.iter().map(Vec::len).sum();
     let w = EDGES * reach.neighbors.len() as f64 / links.max(1) as f64;
     for (i, near) in reach.neighbors.iter().enumerate() {
         for j in near.iter().map(|&j| j as usize).filter(|&j| i > j) {
+            let w = w * land.firmness([i as u32, j as u32]);
             for a in 0..3 {
                 entries.add_square(&[(3 * i + a, 1.0), (3 * j + a, -1.0)], w);
             }

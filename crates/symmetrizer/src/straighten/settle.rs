@@ -112,7 +112,7 @@ fn moved(before: &[Option<Meeting>], after: &[Option<Meeting>]) -> f64 {
 impl<'a> Settling<'a> {
     /// Begins with what `field` says by itself.
     fn new(land: &'a Land<'a>, field: &SymmetryField) -> Result<Self> {
-        let turns = rotations::solved(land.reach, field)?;
+        let turns = rotations::solved(land, field)?;
         let begun = solve(land, field, &turns)?;
         let begun = land.surface.with_positions(begun);
         let samples = land.samples.list.iter().zip(turns);
@@ -209,9 +209,9 @@ impl<'a> Settling<'a> {
         let mut spring = Spring::default();
         // Steps agree and motions agree: of a square for both, the misses count by the share of the latter.
         let share = stiff / (stiff + STEADY);
+        let weight = self.land.firmness(link) * (stiff + STEADY) / 4.0;
         for x in [ends[0].position, ends[1].position, above[0], above[1]] {
             let (y, z) = (a.apply(&x), b.apply(&x));
-            let weight = (stiff + STEADY) / 4.0;
             spring.add([y - a.center, z - b.center], share * (y - z), weight);
         }
         spring

@@ -62,11 +62,19 @@ pub fn integrate(
 ///
 /// # Errors
 /// [`Error::Params`] for a wrong count, [`Error::Numerical`] for what is not finite.
-pub fn integrate_tied(rest: &Surface, rotations: &[Matrix3], ties: &[Tie]) -> Result<Vec<Point>> {
+pub fn integrate_tied(
+    rest: &Surface,
+    rotations: &[Matrix3],
+    stiffness: Option<&[f64]>,
+    ties: &[Tie],
+) -> Result<Vec<Point>> {
     if rotations.len() != rest.positions.len() {
         return Err(Error::params("rotations", "needs one for each vertex"));
     }
-    let weights = edge_weights(rest, None);
+    if let Some(s) = stiffness {
+        check_stiffness(s, rest)?;
+    }
+    let weights = edge_weights(rest, stiffness);
     let bridges = bridges(&rest.positions, weights.keys().map(|&(u, v)| [u, v]));
     let mut edges: Vec<([u32; 2], f64)> = weights.iter().map(|(&(u, v), &k)| ([u, v], k)).collect();
     let degree = 2.0 * weights.values().sum::<f64>() / rest.positions.len().max(1) as f64;
