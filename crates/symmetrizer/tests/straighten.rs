@@ -44,7 +44,7 @@ impl Ground {
             &self.reach,
         );
         let mirrors: Vec<_> = self.found.symmetries.iter().map(|s| s.q_from_p).collect();
-        let bend = Bend::find(&land, &mirrors).expect("solvable")?;
+        let bend = Bend::find(&land, &mirrors, &mut Context::new(0)).expect("solvable")?;
         let straight = straighten(&land, &bend).expect("solvable").positions;
         Some((bend, straight))
     }

@@ -95,7 +95,7 @@ fn one(name: &str, args: &Args) -> Result<[String; 11]> {
     let reach = Reach::new(&found.samples, 0.12);
     let land = Land::new(&working.surface, &closest, &found.samples, &reach);
     let mirrors: Vec<_> = found.symmetries.iter().map(|s| s.q_from_p).collect();
-    let bend = Bend::find(&land, &mirrors)?;
+    let bend = Bend::find(&land, &mirrors, &mut ctx)?;
     let looked = lap();
     let (field, positions) = match &bend {
         Some(bend) => (bend.settled.clone(), straighten(&land, bend)?.positions),

@@ -46,7 +46,7 @@ pub(super) fn unbend(
     let closest = ClosestPoint::new(surface);
     let land = Land::new(surface, &closest, samples, &reach).with_stiffness(settings.stiffness);
     let mirrors: Vec<_> = before.symmetries().iter().map(|s| s.q_from_p).collect();
-    let found = ctx.stage("bend", |_| Bend::find(&land, &mirrors))?;
+    let found = ctx.stage("bend", |ctx| Bend::find(&land, &mirrors, ctx))?;
     let Some(bend) = found else {
         return Ok(nothing);
     };

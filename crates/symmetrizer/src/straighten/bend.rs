@@ -1,5 +1,6 @@
 //! A bend: how far the local mirrors turn over the shape, and whether they are to be believed.
 
+use crate::context::Context;
 use crate::error::Result;
 use crate::field::grow::Land;
 use crate::field::trust::{Trust, Verdict};
@@ -32,8 +33,12 @@ impl Bend {
     /// nowhere.
     ///
     /// # Errors
-    /// [`crate::Error::Numerical`].
-    pub fn find(land: &Land<'_>, mirrors: &[Isometry]) -> Result<Option<Self>> {
+    /// [`crate::Error::Numerical`], [`crate::Error::Cancelled`].
+    pub fn find(
+        land: &Land<'_>,
+        mirrors: &[Isometry],
+        ctx: &mut Context<'_>,
+    ) -> Result<Option<Self>> {
         if mirrors.is_empty() {
             return Ok(None);
         }
@@ -41,7 +46,7 @@ impl Bend {
         if spread(land, &grown) < LEAST {
             return Ok(None);
         }
-        let settled = settle(land, &grown)?;
+        let settled = settle(land, &grown, ctx)?;
         let trust = Trust::of(land, &settled);
         let field = match trust.verdict() {
             Verdict::Refuse => settled.clone(),

@@ -6,6 +6,7 @@
 
 use rayon::prelude::*;
 
+use crate::context::Context;
 use crate::deform::elastic::Motion;
 use crate::deform::solver::SolveError;
 use crate::error::{Error, Result};
@@ -44,11 +45,16 @@ const RADIUS: f64 = 0.045;
 /// `field` with its pairs settled.
 ///
 /// # Errors
-/// [`Error::Numerical`].
-pub fn settle(land: &Land<'_>, field: &SymmetryField) -> Result<SymmetryField> {
+/// [`Error::Numerical`], [`Error::Cancelled`].
+pub fn settle(
+    land: &Land<'_>,
+    field: &SymmetryField,
+    ctx: &mut Context<'_>,
+) -> Result<SymmetryField> {
     let mut settling = Settling::new(land, field)?;
     let mut meetings = settling.meetings();
     for round in 0..ROUNDS {
+        ctx.progress(f64::from(round) / f64::from(ROUNDS))?;
         let part = (f64::from(round) / (FALLS * f64::from(ROUNDS))).min(1.0);
         let stiff = STIFF[0] * (STIFF[1] / STIFF[0]).powf(part);
         settling
