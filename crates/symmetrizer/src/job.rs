@@ -150,6 +150,7 @@ fn made(
     let stiffness = stiffness.per_face(&before.working);
     let settings = Settings {
         stiffness: stiffness.as_deref(),
+        region: None,
         detect: &detect,
         deform: &params.deform,
         optimize: &params.optimize,

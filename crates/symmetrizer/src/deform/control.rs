@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::geom::{Matrix3, Point, sorted_eigen};
-use crate::shape::Surface;
+use crate::shape::{ClosestPoint, Surface};
 
 /// A decimated copy of `surface` with about `faces` triangles, its vertices among the surface's
 /// own; the surface itself where it has no more than that.
@@ -22,6 +22,11 @@ pub struct Decimated {
 }
 
 impl Decimated {
+    /// What the finer surface's vertices have at these.
+    pub fn of_vertices(&self, finer: &[f64]) -> Vec<f64> {
+        self.vertices.iter().map(|&v| finer[v as usize]).collect()
+    }
+
     /// The same faces over the vertices of the finer surface where they are in `finer`.
     pub fn following(&self, finer: &Surface) -> Surface {
         let at = |&v: &u32| finer.positions[v as usize];
@@ -84,6 +89,21 @@ pub fn decimated(surface: &Surface, faces: usize) -> Result<Option<Decimated>> {
         surface: Surface::new(positions, triangles.into()),
         vertices,
     }))
+}
+
+/// The stiffness of the nearest face of `surface` at each face of `control`.
+pub fn stiffness_on(control: &Surface, surface: &Surface, stiffness: &[f64]) -> Vec<f64> {
+    if control.triangles.len() == surface.triangles.len() {
+        return stiffness.to_vec();
+    }
+    let closest = ClosestPoint::new(surface);
+    let at = |f: u32| {
+        let [a, b, c] = control.corners(f);
+        let center = Point::from((a.coords + b.coords + c.coords) / 3.0);
+        let hit = closest.nearest_facing(&center, &control.face_normals[f as usize], 0.0, 1.0);
+        hit.map_or(1.0, |hit| stiffness[hit.at.face as usize])
+    };
+    (0..control.triangles.len() as u32).map(at).collect()
 }
 
 /// The principal axes of the surface's area as orthonormal columns; their signs go by the third

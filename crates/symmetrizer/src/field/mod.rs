@@ -13,7 +13,7 @@ pub mod trust;
 use rayon::prelude::*;
 
 use crate::geom::{Point, Vector};
-use crate::shape::SurfacePoint;
+use crate::shape::{ClosestPoint, SurfacePoint};
 use crate::transform::Isometry;
 
 pub use grow::grow;
@@ -65,6 +65,23 @@ impl SymmetryField {
         let partners = self.partners.iter().zip(kept);
         Self {
             partners: partners.map(|(q, kept)| q.filter(|_| *kept)).collect(),
+            maps: self.maps.clone(),
+        }
+    }
+
+    /// The same with every partner at the nearest place of another copy of the surface.
+    pub fn placed_on(&self, closest: &ClosestPoint) -> Self {
+        let placed = |q: &Partner| {
+            let hit = closest.nearest_facing(&q.position, &q.normal, 0.0, f64::INFINITY)?;
+            Some(Partner {
+                at: hit.at,
+                position: hit.point,
+                ..*q
+            })
+        };
+        let partners = self.partners.par_iter();
+        Self {
+            partners: partners.map(|q| q.as_ref().and_then(placed)).collect(),
             maps: self.maps.clone(),
         }
     }

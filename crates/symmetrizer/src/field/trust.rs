@@ -2,8 +2,9 @@
 //!
 //! Two things speak for a partner that growth and settling do not look for by themselves: that it lies as far
 //! from its neighbours' partners as the sample from its neighbours (the field is an isometry of the surface
-//! onto itself), and that the surface looks alike there, beside how alike any two places look. Decision 0018
-//! has the figures.
+//! onto itself), and that the surface looks alike there, beside how alike any two places look. And where the
+//! pairs do not come to lie on each other, however they settle, there is nothing to be found. Decision 0018 has
+//! the figures.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -25,6 +26,17 @@ const BLAND: f64 = 0.3;
 /// Scores from which a field is accepted, and below which it is refused.
 const ACCEPT: f64 = 0.45;
 const REFUSE: f64 = 0.2;
+/// Mean distance of the pairs around a sample above which it is not, fraction of L.
+const AWAY: f64 = 0.002;
+/// Distance of a pair that does not fit, fraction of L, and the share of samples without a partner that fits
+/// above which a field is not accepted, for it holds for a part at the most ...
+const UNFIT: f64 = 0.003;
+const PARTIAL: f64 = 0.03;
+/// ... unless it scores as much, as those of shapes do that lack a piece.
+const SURE: f64 = 0.7;
+/// Trusted share of the surroundings of a sample below which it is left alone, and above which it may be
+/// changed as the rest.
+const REGION: [f64; 2] = [0.55, 0.8];
 /// Samples that each is compared with for the gap of any two.
 const DRAWN: usize = 8;
 /// Steps of the golden ratio go through the samples without a pattern.
@@ -53,6 +65,8 @@ pub struct Trust {
     pub gap: f64,
     /// The latter itself: how much there is to compare (asinh k r).
     pub relief: f64,
+    /// Share of the samples that have no partner which fits, however they settle.
+    pub unfit: f64,
 }
 
 impl Trust {
@@ -61,11 +75,18 @@ impl Trust {
         let gaps = gaps(land, field);
         let relief = median(&mut drawn(&land.samples.list)).unwrap_or_default();
         let count = land.samples.list.len();
+        let away: Vec<Option<f64>> = field
+            .partners
+            .iter()
+            .map(|q| q.map(|q| q.residual))
+            .collect();
         let trusted: Vec<bool> = (0..count as u32)
             .into_par_iter()
             .map(|s| {
                 let alike = mean_around(land, s, &gaps) <= UNLIKE * relief;
-                field.partners[s as usize].is_some() && alike && stretch(land, field, s) <= STRETCH
+                let fits = mean_around(land, s, &away) <= AWAY;
+                let paired = field.partners[s as usize].is_some();
+                paired && alike && fits && stretch(land, field, s) <= STRETCH
             })
             .collect();
         let mut all: Vec<f64> = gaps.iter().flatten().copied().collect();
@@ -75,7 +96,30 @@ impl Trust {
             gap: gap / relief.max(f64::MIN_POSITIVE),
             relief,
             trusted,
+            unfit: mean(
+                away.iter()
+                    .map(|d| f64::from(u8::from(d.is_none_or(|d| d > UNFIT)))),
+            ),
         }
+    }
+
+    /// How far the surroundings of each sample may be changed, 0 to 1, where the field holds for a part only:
+    /// trusted samples among others that are not count for nothing.
+    pub fn region(&self, land: &Land<'_>) -> Vec<f64> {
+        let mut share: Vec<Option<f64>> = self
+            .trusted
+            .iter()
+            .map(|t| Some(f64::from(u8::from(*t))))
+            .collect();
+        for _ in 0..2 {
+            let samples = (0..share.len() as u32).into_par_iter();
+            share = samples
+                .map(|s| Some(mean_around(land, s, &share)))
+                .collect();
+        }
+        let [low, high] = REGION;
+        let say = |s: f64| ((s - low) / (high - low)).clamp(0.0, 1.0);
+        share.into_iter().flatten().map(say).collect()
     }
 
     /// Trusted share times likeness, 0 to 1.
@@ -86,9 +130,10 @@ impl Trust {
     /// What follows from the figures.
     pub fn verdict(&self) -> Verdict {
         let score = self.score();
+        let whole = self.unfit <= PARTIAL || score >= SURE;
         match () {
             () if score < REFUSE => Verdict::Refuse,
-            () if score >= ACCEPT && self.relief >= BLAND => Verdict::Accept,
+            () if score >= ACCEPT && self.relief >= BLAND && whole => Verdict::Accept,
             () => Verdict::Uncertain,
         }
     }

@@ -59,14 +59,14 @@ pub(super) fn unbend(
     }
     let straight = ctx.stage("straighten", |_| straighten(&land, &bend))?;
     let now = surface.with_positions(straight.positions.clone());
-    let mut done = complete(
-        &now,
-        straight.plane,
-        asymmetry,
-        &before.detection,
-        settings,
-        ctx,
-    )?;
+    // What is not sure of the whole is done to the part that it is sure of.
+    let region = (report.verdict == Verdict::Uncertain).then(|| bend.region(&land));
+    let within = Settings {
+        region: region.as_deref(),
+        ..settings
+    };
+    let plane = straight.plane;
+    let mut done = complete(&now, plane, asymmetry, &before.detection, within, ctx)?;
     done.steps.insert(
         0,
         Step::Straighten {

@@ -17,7 +17,7 @@ pub(super) struct Aim {
     pub confidence: Vec<f64>,
     /// The mirror refitted to the pairs.
     pub plane: Plane,
-    /// Area-weighted mean distance of the mirrored vertices from the surface.
+    /// Area-weighted mean distance of the mirrored vertices from the surface, over what may be changed.
     pub asymmetry: f64,
 }
 
@@ -28,16 +28,29 @@ struct Partner {
 }
 
 impl Aim {
-    /// Of `surface` under `plane`, `closest` its closest points.
-    pub fn at(surface: &Surface, plane: Plane, closest: &ClosestPoint) -> Self {
+    /// Of `surface` under `plane`, `closest` its closest points; each vertex may be changed as far as `region` says
+    /// (0 to 1), all of them where it does not.
+    pub fn at(
+        surface: &Surface,
+        plane: Plane,
+        closest: &ClosestPoint,
+        region: Option<&[f64]>,
+    ) -> Self {
         let mirror = Isometry::mirror(&plane);
         let found: Vec<(f64, Option<Partner>)> = (0..surface.positions.len())
             .into_par_iter()
-            .map(|v| partner(surface, closest, &mirror, v))
+            .map(|v| {
+                let (distance, mut partner) = partner(surface, closest, &mirror, v);
+                if let (Some(partner), Some(region)) = (&mut partner, region) {
+                    partner.confidence *= region[v];
+                }
+                (distance, partner)
+            })
             .collect();
-        let total: f64 = surface.vertex_areas.iter().sum();
-        let weighted = found.iter().zip(&surface.vertex_areas);
-        let asymmetry = weighted.map(|((d, _), a)| d * a).sum::<f64>() / total;
+        let area = |v: usize| surface.vertex_areas[v] * region.map_or(1.0, |region| region[v]);
+        let total: f64 = (0..found.len()).map(area).sum();
+        let weighted = found.iter().enumerate().map(|(v, (d, _))| d * area(v));
+        let asymmetry = weighted.sum::<f64>() / total.max(f64::MIN_POSITIVE);
         let plane = refit(surface, &found).unwrap_or(plane);
         let mirror = Isometry::mirror(&plane);
         let mut targets = vec![Vector::zeros(); found.len()];

@@ -6,6 +6,7 @@ use crate::optimize::glide::glide;
 use crate::optimize::moving::{Couple, Moving, guided_couples};
 use crate::optimize::params::OptimizeParams;
 use crate::patch::{PatchParams, Symmetry};
+use crate::sample::Sample;
 use crate::transform::Plane;
 
 /// What a contraction did.
@@ -108,13 +109,14 @@ pub fn contract(
 
 /// The last contraction, under the final mirror of the whole shape: every sample with the closest
 /// facing point to its image, whether or not a descriptor ever matched it, the reach narrowing as
-/// the halves come together.
+/// the halves come together. Only samples for which `wanted` holds take part.
 ///
 /// # Errors
 /// As [`crate::deform::Deformer::deform`].
 pub fn contract_whole(
     moving: &mut Moving<'_>,
     plane: Plane,
+    wanted: impl Fn(&Sample) -> bool,
     params: &OptimizeParams,
     ctx: &mut Context<'_>,
 ) -> Result<Contracted> {
@@ -127,7 +129,9 @@ pub fn contract_whole(
             let round = k / params.redetect_every;
             let narrowing = round as f64 / rounds as f64;
             let reach = WIDE * (1.0 - narrowing) + NARROW * narrowing;
-            couples = guided_couples(&moving.snapshot(), &done.plane, reach, 0.3, |_| true);
+            let snapshot = moving.snapshot();
+            let wanted = |s: u32| wanted(&snapshot.samples.list[s as usize]);
+            couples = guided_couples(&snapshot, &done.plane, reach, 0.3, wanted);
         }
         if !advance(moving, &couples, &mut done, params, ctx)? {
             break;

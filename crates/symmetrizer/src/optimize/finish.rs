@@ -11,7 +11,7 @@ use crate::deform::control::decimated;
 use crate::error::Result;
 use crate::geom::Point;
 use crate::optimize::aim::Aim;
-use crate::optimize::rounds::Rounds;
+use crate::optimize::rounds::{Changed, Rounds};
 use crate::optimize::schedule::Settings;
 use crate::optimize::untangle::untangle;
 use crate::shape::{ClosestPoint, Surface};
@@ -53,23 +53,35 @@ pub fn finish(
 ) -> Result<Finished> {
     let full = decimated(surface, FULL)?;
     let rest = full.as_ref().map_or(surface, |f| &f.surface);
-    let stiffness = |on: &Surface| settings.stiffness.map(|k| stiffness_on(on, surface, k));
+    let changed = Changed {
+        stiffness: settings.stiffness.map(<[f64]>::to_vec),
+        region: settings.region.map(<[f64]>::to_vec),
+    };
+    let changed = full
+        .as_ref()
+        .map_or_else(|| changed.clone(), |full| changed.on(surface, full));
     let mut rounds = Rounds::new(settings.optimize, goal, plane);
     let mut now = rest.clone();
     if let Some(coarse) = decimated(rest, COARSE.0)? {
-        let coarse = coarse.surface;
-        let until = COARSE.1 * coarse.mean_edge();
-        let moved = rounds.run(&coarse, stiffness(&coarse), until, ctx)?;
-        now = rest.with_positions(carry(rest, &coarse, &moved.positions));
+        let control = &coarse.surface;
+        let until = COARSE.1 * control.mean_edge();
+        let moved = rounds.run(control, &changed.on(rest, &coarse), until, ctx)?;
+        now = rest.with_positions(carry(rest, control, &moved.positions));
     }
-    now = rounds.run(&now, stiffness(rest), 0.0, ctx)?;
+    now = rounds.run(&now, &changed, 0.0, ctx)?;
     if full.is_some() {
         now = surface.with_positions(carry(surface, rest, &now.positions));
     }
     let (now, undone) = untangle(surface, now);
     if undone > 0.0 {
         let seen = full.map_or_else(|| now.clone(), |f| f.following(&now));
-        rounds.note(&Aim::at(&seen, rounds.plane, &ClosestPoint::new(&seen)));
+        let closest = ClosestPoint::new(&seen);
+        rounds.note(&Aim::at(
+            &seen,
+            rounds.plane,
+            &closest,
+            changed.region.as_deref(),
+        ));
     }
     Ok(Finished {
         undone,
@@ -78,19 +90,4 @@ pub fn finish(
         rounds: rounds.done,
         asymmetry: rounds.asymmetry.unwrap_or_default(),
     })
-}
-
-/// The stiffness of the nearest face of `surface` at each face of `control`.
-fn stiffness_on(control: &Surface, surface: &Surface, stiffness: &[f64]) -> Vec<f64> {
-    if control.triangles.len() == surface.triangles.len() {
-        return stiffness.to_vec();
-    }
-    let closest = ClosestPoint::new(surface);
-    let at = |f: u32| {
-        let [a, b, c] = control.corners(f);
-        let center = Point::from((a.coords + b.coords + c.coords) / 3.0);
-        let hit = closest.nearest_facing(&center, &control.face_normals[f as usize], 0.0, 1.0);
-        hit.map_or(1.0, |hit| stiffness[hit.at.face as usize])
-    };
-    (0..control.triangles.len() as u32).map(at).collect()
 }

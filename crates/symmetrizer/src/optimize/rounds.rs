@@ -1,6 +1,7 @@
 //! The rounds of the finish: displacements smoothed over ever shorter lengths.
 
 use crate::context::Context;
+use crate::deform::control::{Decimated, stiffness_on};
 use crate::deform::smooth::SmoothField;
 use crate::deform::solver::SolveError;
 use crate::error::{Error, Result};
@@ -19,6 +20,27 @@ const COARSE_ROUNDS: usize = 5;
 
 /// A round that leaves more than this share of the asymmetry gains nothing that is worth its change.
 const STALLED: f64 = 0.995;
+
+/// What may be changed of a surface, and how easily.
+#[derive(Clone)]
+pub(super) struct Changed {
+    /// Stiffness of each face, where it is not 1 everywhere.
+    pub stiffness: Option<Vec<f64>>,
+    /// How far each vertex may be changed, 0 to 1, where it is not the whole surface.
+    pub region: Option<Vec<f64>>,
+}
+
+impl Changed {
+    /// The same of a `surface` for a decimated copy of it.
+    pub fn on(&self, surface: &Surface, copy: &Decimated) -> Self {
+        let stiffness = self.stiffness.as_deref();
+        let region = self.region.as_deref();
+        Self {
+            stiffness: stiffness.map(|k| stiffness_on(&copy.surface, surface, k)),
+            region: region.map(|region| copy.of_vertices(region)),
+        }
+    }
+}
 
 /// How far the rounds have come.
 pub(super) struct Rounds<'a> {
@@ -68,14 +90,14 @@ impl<'a> Rounds<'a> {
     pub fn run(
         &mut self,
         surface: &Surface,
-        stiffness: Option<Vec<f64>>,
+        changed: &Changed,
         until: f64,
         ctx: &mut Context<'_>,
     ) -> Result<Surface> {
         if !self.wanted(until) {
             return Ok(surface.clone());
         }
-        let mut cloth = Cloth::new(surface, stiffness.as_deref(), self.plane).map_err(failure)?;
+        let mut cloth = Cloth::new(surface, changed, self.plane).map_err(failure)?;
         self.note(&cloth.aim);
         while self.wanted(until) {
             ctx.progress(self.done as f64 / self.params.finish_rounds as f64)?;
@@ -85,7 +107,7 @@ impl<'a> Rounds<'a> {
         Ok(cloth.now)
     }
 
-    fn round(&mut self, cloth: &mut Cloth) -> std::result::Result<(), SolveError> {
+    fn round(&mut self, cloth: &mut Cloth<'_>) -> std::result::Result<(), SolveError> {
         let shortest = self.params.finish_lengths[1];
         let settled = self.done + 1 >= COARSE_ROUNDS;
         let moves = cloth.moves(self.lambda)?;
@@ -111,25 +133,27 @@ impl<'a> Rounds<'a> {
 }
 
 /// The surface as it is drawn, round by round.
-struct Cloth {
+struct Cloth<'a> {
+    changed: &'a Changed,
     field: SmoothField,
     now: Surface,
     closest: ClosestPoint,
     aim: Aim,
 }
 
-impl Cloth {
+impl<'a> Cloth<'a> {
     fn new(
         surface: &Surface,
-        stiffness: Option<&[f64]>,
+        changed: &'a Changed,
         plane: Plane,
     ) -> std::result::Result<Self, SolveError> {
         let closest = ClosestPoint::new(surface);
         Ok(Self {
-            field: SmoothField::new(surface, stiffness)?,
+            field: SmoothField::new(surface, changed.stiffness.as_deref())?,
             now: surface.clone(),
-            aim: Aim::at(surface, plane, &closest),
+            aim: Aim::at(surface, plane, &closest, changed.region.as_deref()),
             closest,
+            changed,
         })
     }
 
@@ -145,7 +169,8 @@ impl Cloth {
         let moved = moved.map(|(x, u)| x + u * fraction).collect();
         let next = self.now.with_positions(moved);
         self.closest.follow(&next);
-        let aim = Aim::at(&next, self.aim.plane, &self.closest);
+        let region = self.changed.region.as_deref();
+        let aim = Aim::at(&next, self.aim.plane, &self.closest, region);
         (next, aim)
     }
 }

@@ -14,7 +14,7 @@ use crate::optimize::merge::{merge, ownership};
 use crate::optimize::moving::Moving;
 use crate::optimize::params::OptimizeParams;
 use crate::patch::{Symmetry, carry_ids};
-use crate::sample::Samples;
+use crate::sample::{Sample, Samples};
 use crate::shape::{ClosestPoint, Surface};
 use crate::transform::{Isometry, Plane};
 
@@ -142,6 +142,8 @@ pub struct Settings<'a> {
     pub detect: &'a DetectParams,
     /// Stiffness of each face, where it is not 1 everywhere.
     pub stiffness: Option<&'a [f64]>,
+    /// How far each vertex may be changed, 0 to 1, where the symmetry holds for a part only.
+    pub region: Option<&'a [f64]>,
     /// The deformation model.
     pub deform: &'a DeformParams,
     /// The schedule.
@@ -476,7 +478,15 @@ impl Schedule<'_> {
     }
 
     fn contract_whole(&mut self, plane: Plane, ctx: &mut Context<'_>) -> Result<Plane> {
-        let done = contract_whole(&mut self.moving, plane, self.settings.optimize, ctx)?;
+        let triangles = self.moving.deformer.rest().triangles.clone();
+        let region = self.settings.region;
+        let inside = |s: &Sample| {
+            let corners = triangles[s.at.face as usize].iter().zip(s.at.bary);
+            let share = |region: &[f64]| corners.map(|(&v, b)| b * region[v as usize]).sum::<f64>();
+            region.is_none_or(|region| share(region) >= 0.5)
+        };
+        let params = self.settings.optimize;
+        let done = contract_whole(&mut self.moving, plane, inside, params, ctx)?;
         self.steps.push(Step::ContractWhole {
             steps: done.steps,
             couples: done.couples,

@@ -18,6 +18,9 @@ pub struct BendReport {
     pub likeness: f64,
     /// How much there is to compare: the median difference of any two places' curvatures, asinh(k r).
     pub relief: f64,
+    /// Share of the surface whose mirror image does not come to lie on the rest, however the shape is bent: where
+    /// it is large, the symmetry is one of a part.
+    pub unfit: f64,
     /// The largest angle by which local mirrors turn over the shape, degrees.
     pub degrees: f64,
     /// How much of it was removed, degrees.
@@ -47,6 +50,7 @@ impl BendReport {
             trusted: bend.trust.share,
             likeness: (1.0 - bend.trust.gap).max(0.0),
             relief: bend.trust.relief,
+            unfit: bend.trust.unfit,
             degrees: bend.degrees,
             removed: 0.0,
             kept: None,

@@ -9,6 +9,7 @@ use crate::sample::blue_noise::blue_noise;
 use crate::sample::crisp::Corners;
 use crate::sample::relief::{Frame, Harmonics, Relief};
 use crate::sample::signature::{Signature, base_radius, describe};
+use crate::shape::ClosestPoint;
 use crate::shape::curvature::Cloud;
 use crate::shape::surface::{Surface, SurfacePoint};
 
@@ -63,6 +64,19 @@ pub struct Samples {
 }
 
 impl Samples {
+    /// The same with each at the nearest place of another copy of the surface.
+    pub fn placed_on(&self, closest: &ClosestPoint) -> Self {
+        let placed = |s: &Sample| {
+            let hit = closest.nearest_facing(&s.position, &s.normal, 0.0, f64::INFINITY);
+            hit.map_or(*s, |hit| Sample { at: hit.at, ..*s })
+        };
+        Self {
+            list: self.list.par_iter().map(placed).collect(),
+            neighbors: self.neighbors.clone(),
+            ..*self
+        }
+    }
+
     /// Which samples are among `seeds` or at most `rings` neighbours away from them.
     pub fn around(&self, seeds: &[u32], rings: u32) -> Vec<bool> {
         let mut member = vec![false; self.list.len()];

@@ -1,6 +1,7 @@
 //! Shapes: the document with the file's own structure, the working surface the stages run
 //! on, points on a surface, closest points, curvature, files, generated models.
 
+pub mod boundary;
 pub mod closest;
 pub mod cloud;
 pub mod crossings;

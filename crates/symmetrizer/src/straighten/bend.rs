@@ -1,11 +1,14 @@
 //! A bend: how far the local mirrors turn over the shape, and whether they are to be believed.
 
 use crate::context::Context;
+use crate::deform::control::{decimated, stiffness_on};
 use crate::error::Result;
 use crate::field::grow::Land;
 use crate::field::trust::{Trust, Verdict};
 use crate::field::{SymmetryField, find};
 use crate::geom::{Matrix3, Vector, nearest_orthogonal, sorted_eigen};
+use crate::shape::ClosestPoint;
+use crate::straighten::blend::Blend;
 use crate::straighten::{rotations, settle};
 use crate::transform::Isometry;
 
@@ -13,6 +16,8 @@ use crate::transform::Isometry;
 pub const LEAST: f64 = 4.0;
 /// Share of the samples that are looked at for the largest turn: the rest may be anything.
 const MOST: f64 = 0.98;
+/// Faces of the copy that stands for a surface of many more.
+const FACES: usize = 20_000;
 
 /// A bend that was found on a shape.
 pub struct Bend {
@@ -30,7 +35,7 @@ pub struct Bend {
 
 impl Bend {
     /// Looks for the field that detection's `mirrors` grow into; `None` where there are none or they turn
-    /// nowhere.
+    /// nowhere. A decimated copy stands for a fine surface: all that is asked of it are the places of samples.
     ///
     /// # Errors
     /// [`crate::Error::Numerical`], [`crate::Error::Cancelled`].
@@ -42,6 +47,35 @@ impl Bend {
         if mirrors.is_empty() {
             return Ok(None);
         }
+        let Some(control) = decimated(land.surface, FACES)? else {
+            return Self::find_on(land, mirrors, ctx);
+        };
+        let surface = &control.surface;
+        let closest = ClosestPoint::new(surface);
+        let samples = land.samples.placed_on(&closest);
+        let stiffness = land
+            .stiffness
+            .map(|s| stiffness_on(surface, land.surface, s));
+        let coarse =
+            Land::new(surface, &closest, &samples, land.reach).with_stiffness(stiffness.as_deref());
+        let found = Self::find_on(&coarse, mirrors, ctx)?;
+        Ok(found.map(|bend| Self {
+            settled: bend.settled.placed_on(land.closest),
+            field: bend.field.placed_on(land.closest),
+            ..bend
+        }))
+    }
+
+    /// How far each vertex of the surface may be changed, 0 to 1, where the symmetry holds for a part only.
+    pub fn region(&self, land: &Land<'_>) -> Vec<f64> {
+        Blend::new(land.surface, land.samples).values(&self.trust.region(land))
+    }
+
+    fn find_on(
+        land: &Land<'_>,
+        mirrors: &[Isometry],
+        ctx: &mut Context<'_>,
+    ) -> Result<Option<Self>> {
         let grown = find(land, mirrors);
         if spread(land, &grown) < LEAST {
             return Ok(None);
@@ -50,7 +84,8 @@ impl Bend {
         let trust = Trust::of(land, &settled);
         let field = match trust.verdict() {
             Verdict::Refuse => settled.clone(),
-            _ => settled.of(&trust.trusted),
+            Verdict::Uncertain => settled.of(&within(&trust.trusted, &trust.region(land))),
+            Verdict::Accept => settled.of(&trust.trusted),
         };
         let turns = rotations::solved(land, &field)?;
         let degrees = span(&shared(&turns, &field));
@@ -62,6 +97,13 @@ impl Bend {
             degrees,
         }))
     }
+}
+
+/// Which of the samples are trusted among others that are.
+fn within(trusted: &[bool], region: &[f64]) -> Vec<bool> {
+    let both = trusted.iter().zip(region);
+    both.map(|(trusted, share)| *trusted && *share >= 0.5)
+        .collect()
 }
 
 /// The turns that partners have in common: a place on the spine and its two sides turn as one.

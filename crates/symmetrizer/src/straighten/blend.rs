@@ -43,6 +43,14 @@ impl Blend {
         self.0.par_iter().map(at).collect()
     }
 
+    /// The samples' values at each vertex.
+    pub fn values(&self, of: &[f64]) -> Vec<f64> {
+        let at = |carriers: &Vec<(u32, f64)>| -> f64 {
+            carriers.iter().map(|&(s, w)| w * of[s as usize]).sum()
+        };
+        self.0.iter().map(at).collect()
+    }
+
     /// Where the samples' motions carry each vertex of `surface`.
     pub fn positions(&self, surface: &Surface, motions: &[Motion]) -> Vec<Point> {
         let at = |(carriers, x): (&Vec<(u32, f64)>, &Point)| {

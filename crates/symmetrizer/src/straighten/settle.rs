@@ -14,6 +14,7 @@ use crate::field::grow::Land;
 use crate::field::local::{Local, fit};
 use crate::field::{Partner, SymmetryField};
 use crate::geom::{Matrix3, Point, Vector};
+use crate::shape::boundary::Boundary;
 use crate::shape::{ClosestPoint, Hit, Surface};
 use crate::straighten::blend::Blend;
 use crate::straighten::equations::{Equations, Spring, along};
@@ -84,6 +85,7 @@ struct Settling<'a> {
     land: &'a Land<'a>,
     blend: Blend,
     closest: ClosestPoint,
+    boundary: Boundary,
     slopes: Vec<[Option<Slope>; SIGNS]>,
     motions: Vec<Motion>,
 }
@@ -130,6 +132,7 @@ impl<'a> Settling<'a> {
         Ok(Self {
             blend: Blend::new(land.surface, land.samples),
             closest: land.closest.clone(),
+            boundary: Boundary::of(land.surface),
             slopes: slopes(land.samples, land.reach),
             motions: motions.collect(),
             land,
@@ -155,8 +158,12 @@ impl<'a> Settling<'a> {
         let hit = self
             .closest
             .nearest_facing(&image, &mirrored(&normal), MIN_COS, TOO_FAR)?;
-        let across = mirrored(&now.normal(&hit.at));
         let rest = self.land.surface;
+        // Beyond the boundary there is nothing to meet.
+        if self.boundary.holds(rest, &hit.at) {
+            return None;
+        }
+        let across = mirrored(&now.normal(&hit.at));
         let position = rest.point(&hit.at);
         Some(Meeting {
             x,
