@@ -113,6 +113,11 @@ impl<'a> Context<'a> {
         Ok(())
     }
 
+    /// The token, for work that goes on in several threads.
+    pub fn token(&self) -> &CancelToken {
+        &self.cancel
+    }
+
     /// Keeps a warning for the report.
     pub fn warn(&mut self, text: impl Into<String>) {
         self.warnings.push(Warning(text.into()));

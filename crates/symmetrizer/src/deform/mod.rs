@@ -86,6 +86,9 @@ pub trait Deformer {
     /// dimensionless, 0 under rigid motion.
     fn energy(&self) -> f64;
 
+    /// The energy with the surface's vertices at `positions`, its elements following them as well as they can.
+    fn energy_at(&self, positions: &[Point]) -> f64;
+
     /// Vertex positions of the surface as it is deformed now.
     fn positions(&self) -> Vec<Point>;
 

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use crate::context::CancelToken;
 use crate::field::cut::torn;
 use crate::field::local::{Local, fit};
 use crate::field::{Partner, Reach, SymmetryField};
@@ -101,11 +102,14 @@ impl<'a> Land<'a> {
     }
 }
 
-/// Grows `seeds` over the surface.
-pub fn grow(land: &Land<'_>, seeds: Vec<Option<Partner>>) -> SymmetryField {
+/// Grows `seeds` over the surface, no further once `cancel` is set.
+pub fn grow(land: &Land<'_>, seeds: Vec<Option<Partner>>, cancel: &CancelToken) -> SymmetryField {
+    let tiers = |partners: &mut _, (local, radius), taus: &[f64]| {
+        tiers(land, partners, (local, radius), taus, cancel);
+    };
     let mut partners = seeds;
     for _ in 0..=CUTS {
-        tiers(land, &mut partners, Local::Mirror, RADII[0], &TIERS);
+        tiers(&mut partners, (Local::Mirror, RADII[0]), &TIERS);
         let maps = fit(land.samples, land.reach, &partners, Local::Mirror, RADII[0]);
         if !torn(land, &mut partners, &maps) {
             break;
@@ -113,7 +117,7 @@ pub fn grow(land: &Land<'_>, seeds: Vec<Option<Partner>>) -> SymmetryField {
     }
     let share = partners.iter().flatten().count() as f64 / partners.len().max(1) as f64;
     let (local, radius) = if share < COVERED {
-        tiers(land, &mut partners, Local::Improper, RADII[1], &WIDE_TIERS);
+        tiers(&mut partners, (Local::Improper, RADII[1]), &WIDE_TIERS);
         (Local::Improper, RADII[1])
     } else {
         (Local::Mirror, RADII[0])
@@ -126,12 +130,15 @@ pub fn grow(land: &Land<'_>, seeds: Vec<Option<Partner>>) -> SymmetryField {
 fn tiers(
     land: &Land<'_>,
     partners: &mut Vec<Option<Partner>>,
-    local: Local,
-    radius: f64,
+    (local, radius): (Local, f64),
     taus: &[f64],
+    cancel: &CancelToken,
 ) {
     for &tau in taus {
         for _ in 0..ROUNDS {
+            if cancel.is_cancelled() {
+                return;
+            }
             let maps = fit(land.samples, land.reach, partners, local, radius);
             let next: Vec<Option<Partner>> = (0..partners.len() as u32)
                 .into_par_iter()

@@ -12,6 +12,8 @@ pub mod trust;
 
 use rayon::prelude::*;
 
+use crate::context::Context;
+use crate::error::Result;
 use crate::geom::{Point, Vector};
 use crate::shape::{ClosestPoint, SurfacePoint};
 use crate::transform::Isometry;
@@ -45,18 +47,26 @@ pub struct SymmetryField {
 }
 
 /// The field that detection's `mirrors` grow into on `land`: of several starts the one that covers most.
-pub fn find(land: &grow::Land<'_>, mirrors: &[Isometry]) -> SymmetryField {
-    let claims = seeds::CLAIMS.par_iter();
+///
+/// # Errors
+/// [`crate::Error::Cancelled`].
+pub fn find(
+    land: &grow::Land<'_>,
+    mirrors: &[Isometry],
+    ctx: &Context<'_>,
+) -> Result<SymmetryField> {
+    let (claims, cancel) = (seeds::CLAIMS.par_iter(), ctx.token());
     let grown: Vec<SymmetryField> = claims
-        .map(|&claim| grow(land, seeds::seeds(land, mirrors, claim)))
+        .map(|&claim| grow(land, seeds::seeds(land, mirrors, claim), cancel))
         .collect();
+    ctx.check()?;
     let best = grown
         .into_iter()
         .max_by(|a, b| a.cover().total_cmp(&b.cover()));
-    best.unwrap_or_else(|| SymmetryField {
+    Ok(best.unwrap_or_else(|| SymmetryField {
         partners: vec![None; land.samples.list.len()],
         maps: vec![None; land.samples.list.len()],
-    })
+    }))
 }
 
 impl SymmetryField {

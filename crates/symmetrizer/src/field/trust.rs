@@ -104,22 +104,22 @@ impl Trust {
     }
 
     /// How far the surroundings of each sample may be changed, 0 to 1, where the field holds for a part only:
-    /// trusted samples among others that are not count for nothing.
+    /// trusted samples among others that are not count for nothing, nor does a second part.
     pub fn region(&self, land: &Land<'_>) -> Vec<f64> {
-        let mut share: Vec<Option<f64>> = self
-            .trusted
-            .iter()
-            .map(|t| Some(f64::from(u8::from(*t))))
-            .collect();
+        let one = |t: &bool| Some(f64::from(u8::from(*t)));
+        let mut share: Vec<Option<f64>> = self.trusted.iter().map(one).collect();
         for _ in 0..2 {
             let samples = (0..share.len() as u32).into_par_iter();
-            share = samples
-                .map(|s| Some(mean_around(land, s, &share)))
-                .collect();
+            let around = samples.map(|s| Some(mean_around(land, s, &share)));
+            share = around.collect();
         }
         let [low, high] = REGION;
         let say = |s: f64| ((s - low) / (high - low)).clamp(0.0, 1.0);
-        share.into_iter().flatten().map(say).collect()
+        let region: Vec<f64> = share.into_iter().flatten().map(say).collect();
+        let largest = largest_piece(&land.samples.neighbors, &region);
+        let kept = region.iter().zip(largest);
+        kept.map(|(share, kept)| if kept { *share } else { 0.0 })
+            .collect()
     }
 
     /// Trusted share times likeness, 0 to 1.
@@ -137,6 +137,34 @@ impl Trust {
             () => Verdict::Uncertain,
         }
     }
+}
+
+/// Which samples belong to the largest connected piece where `share` is not 0.
+fn largest_piece(neighbors: &[Vec<u32>], share: &[f64]) -> Vec<bool> {
+    let mut seen: Vec<bool> = share.iter().map(|s| *s == 0.0).collect();
+    let mut largest = Vec::new();
+    for start in 0..share.len() {
+        if seen[start] {
+            continue;
+        }
+        seen[start] = true;
+        let mut piece = vec![start];
+        let mut at = 0;
+        while at < piece.len() {
+            for &n in &neighbors[piece[at]] {
+                if !std::mem::replace(&mut seen[n as usize], true) {
+                    piece.push(n as usize);
+                }
+            }
+            at += 1;
+        }
+        if piece.len() > largest.len() {
+            largest = piece;
+        }
+    }
+    let mut member = vec![false; share.len()];
+    largest.into_iter().for_each(|s| member[s] = true);
+    member
 }
 
 /// Gap between the signatures of each sample and its partner.

@@ -7,7 +7,7 @@ use crate::field::Reach;
 use crate::field::grow::Land;
 use crate::field::trust::Verdict;
 use crate::job::Detected;
-use crate::optimize::schedule::Settings;
+use crate::optimize::schedule::{Settings, prepared};
 use crate::optimize::{Optimized, Step, complete};
 use crate::report::{BendReport, KeptReport};
 use crate::shape::ClosestPoint;
@@ -58,6 +58,21 @@ pub(super) fn unbend(
         });
     }
     let straight = ctx.stage("straighten", |_| straighten(&land, &bend))?;
+    let body = ctx.stage("prepare", |_| prepared(surface, settings))?;
+    let energy = body.energy_at(&straight.positions);
+    if settings
+        .optimize
+        .max_deformation
+        .is_some_and(|most| energy > most)
+    {
+        ctx.warn(format!(
+            "the bend is not undone: that takes a deformation of {energy:.3}, more than is allowed"
+        ));
+        return Ok(Looked {
+            report: Some(report),
+            done: None,
+        });
+    }
     let now = surface.with_positions(straight.positions.clone());
     // What is not sure of the whole is done to the part that it is sure of.
     let region = (report.verdict == Verdict::Uncertain).then(|| bend.region(&land));
@@ -92,6 +107,7 @@ pub(super) fn unbend(
             bend: bend.degrees - report.removed,
         });
     }
+    done.energy = body.energy_at(&done.positions);
     Ok(Looked {
         report: Some(report),
         done: Some(done),

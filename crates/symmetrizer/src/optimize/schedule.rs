@@ -269,7 +269,10 @@ pub fn complete(
 }
 
 /// The deformer over `surface`.
-fn prepared(surface: &Surface, settings: Settings<'_>) -> Result<Box<dyn Deformer>> {
+///
+/// # Errors
+/// As [`deformer`].
+pub fn prepared(surface: &Surface, settings: Settings<'_>) -> Result<Box<dyn Deformer>> {
     let mut deformer = deformer(surface, settings.deform)?;
     if let Some(stiffness) = settings.stiffness {
         deformer.set_stiffness(stiffness)?;

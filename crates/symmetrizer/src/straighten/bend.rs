@@ -5,7 +5,7 @@ use crate::deform::control::{decimated, stiffness_on};
 use crate::error::Result;
 use crate::field::grow::Land;
 use crate::field::trust::{Trust, Verdict};
-use crate::field::{SymmetryField, find};
+use crate::field::{Partner, SymmetryField, find};
 use crate::geom::{Matrix3, Vector, nearest_orthogonal, sorted_eigen};
 use crate::shape::ClosestPoint;
 use crate::straighten::blend::Blend;
@@ -76,7 +76,7 @@ impl Bend {
         mirrors: &[Isometry],
         ctx: &mut Context<'_>,
     ) -> Result<Option<Self>> {
-        let grown = find(land, mirrors);
+        let grown = find(land, mirrors, ctx)?;
         if spread(land, &grown) < LEAST {
             return Ok(None);
         }
@@ -84,7 +84,7 @@ impl Bend {
         let trust = Trust::of(land, &settled);
         let field = match trust.verdict() {
             Verdict::Refuse => settled.clone(),
-            Verdict::Uncertain => settled.of(&within(&trust.trusted, &trust.region(land))),
+            Verdict::Uncertain => settled.of(&within(&trust, &trust.region(land), &settled)),
             Verdict::Accept => settled.of(&trust.trusted),
         };
         let turns = rotations::solved(land, &field)?;
@@ -99,16 +99,19 @@ impl Bend {
     }
 }
 
-/// Which of the samples are trusted among others that are.
-fn within(trusted: &[bool], region: &[f64]) -> Vec<bool> {
-    let both = trusted.iter().zip(region);
-    both.map(|(trusted, share)| *trusted && *share >= 0.5)
-        .collect()
+/// Which of the samples are trusted among others that are, and so their partners.
+fn within(trust: &Trust, region: &[f64], field: &SymmetryField) -> Vec<bool> {
+    let inside = |s: usize| region[s] >= 0.5;
+    let both = |(s, q): (usize, &Option<Partner>)| {
+        let partner = q.is_some_and(|q| inside(q.sample as usize));
+        trust.trusted[s] && inside(s) && partner
+    };
+    field.partners.iter().enumerate().map(both).collect()
 }
 
 /// The turns that partners have in common: a place on the spine and its two sides turn as one.
 pub fn shared(turns: &[Matrix3], field: &SymmetryField) -> Vec<Matrix3> {
-    let both = |(turn, partner): (&Matrix3, &Option<crate::field::Partner>)| {
+    let both = |(turn, partner): (&Matrix3, &Option<Partner>)| {
         let other = partner.map_or(*turn, |q| turns[q.sample as usize]);
         nearest_orthogonal(&(turn + other), false)
     };

@@ -10,13 +10,15 @@ mod rotations;
 mod settle;
 mod slopes;
 
-use crate::deform::Tie;
+use crate::deform::control::{decimated, stiffness_on};
+use crate::deform::elastic::Motion;
 use crate::deform::poisson::integrate_tied;
+use crate::deform::{Tie, carry};
 use crate::error::Result;
 use crate::field::SymmetryField;
 use crate::field::grow::Land;
-use crate::geom::{Matrix3, Point, Vector, nearest_orthogonal};
-use crate::shape::Surface;
+use crate::geom::{Matrix3, Point, Vector};
+use crate::shape::{ClosestPoint, Surface};
 use crate::transform::Plane;
 use blend::Blend;
 
@@ -37,14 +39,27 @@ pub struct Straightened {
 
 /// Weight of a pair beside a vertex's edges.
 const PAIR: f64 = 0.3;
+/// The solve is made on a copy of about this many faces where the surface has many more, and the rest is
+/// carried along.
+const FULL: usize = 100_000;
 
 /// The surface with `bend` undone.
 ///
 /// # Errors
 /// [`crate::Error::Numerical`].
 pub fn straighten(land: &Land<'_>, bend: &Bend) -> Result<Straightened> {
-    let positions = solve(land, &bend.field, &bend.turns)?;
-    Ok(placed(land.surface, positions))
+    let surface = land.surface;
+    let Some(copy) = decimated(surface, FULL)? else {
+        return Ok(placed(surface, solve(land, &bend.field, &bend.turns)?));
+    };
+    let control = &copy.surface;
+    let closest = ClosestPoint::new(control);
+    let samples = land.samples.placed_on(&closest);
+    let stiffness = land.stiffness.map(|s| stiffness_on(control, surface, s));
+    let coarse =
+        Land::new(control, &closest, &samples, land.reach).with_stiffness(stiffness.as_deref());
+    let solved = solve(&coarse, &bend.field.placed_on(&closest), &bend.turns)?;
+    Ok(placed(surface, carry(surface, control, &solved)))
 }
 
 /// Vertex positions of the surface with the samples turned by `turns` and the pairs of `field` opposite each
@@ -67,24 +82,11 @@ fn solve(land: &Land<'_>, field: &SymmetryField, turns: &[Matrix3]) -> Result<Ve
 
 /// Positions whose mirror is x = 0, moved over `surface`.
 fn placed(surface: &Surface, positions: Vec<Point>) -> Straightened {
-    let area: f64 = surface.vertex_areas.iter().sum();
-    let center = |x: &[Point]| {
-        let weighted = x.iter().zip(&surface.vertex_areas);
-        weighted.map(|(x, w)| x.coords * *w).sum::<Vector>() / area
-    };
-    let (from, to) = (center(&positions), center(&surface.positions));
-    let weighted = positions
-        .iter()
-        .zip(&surface.positions)
-        .zip(&surface.vertex_areas);
-    let moment: Matrix3 = weighted
-        .map(|((x, y), w)| *w * (y.coords - to) * (x.coords - from).transpose())
-        .sum();
-    let frame = nearest_orthogonal(&moment, false);
-    let move_over = |x: &Vector| Point::from(frame * (x - from) + to);
+    let over = Motion::between(&positions, &surface.positions, &surface.vertex_areas);
+    let normal = over.rotation * Vector::x();
     Straightened {
-        plane: Plane::through(&move_over(&Vector::zeros()), frame * Vector::x()),
-        positions: positions.iter().map(|x| move_over(&x.coords)).collect(),
-        frame,
+        plane: Plane::through(&over.apply(&Point::origin()), normal),
+        positions: positions.iter().map(|x| over.apply(x)).collect(),
+        frame: over.rotation,
     }
 }

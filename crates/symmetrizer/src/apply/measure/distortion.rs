@@ -3,10 +3,10 @@
 //! Everything compares two states of the same triangles, `before` and `after`, in the same
 //! coordinates (the working coordinates of `before`).
 
-use crate::apply::measure::align::align_rigidly;
 use crate::apply::measure::curvature::curvature_correlation;
 use crate::apply::measure::percentile;
 use crate::apply::measure::volume::volume;
+use crate::deform::elastic::Motion;
 use crate::geom::{Matrix3, Point, Vector, nearest_orthogonal};
 use crate::shape::Surface;
 use crate::shape::crossings::{crossing_faces, new_crossings};
@@ -48,7 +48,8 @@ pub struct Distortion {
 pub fn distortion(before: &Surface, after: &Surface, diagonal: f64) -> Distortion {
     assert_eq!(before.triangles, after.triangles, "states of one surface");
     let percent = 100.0 / diagonal;
-    let aligned = align_rigidly(&after.positions, &before.positions, &before.vertex_areas);
+    let back = Motion::between(&after.positions, &before.positions, &before.vertex_areas);
+    let aligned: Vec<Point> = after.positions.iter().map(|x| back.apply(x)).collect();
     let (rms, max) = displacement(before, &aligned);
     let (rms_unaligned, max_unaligned) = displacement(before, &after.positions);
     let crossings = new_crossings(&crossing_faces(before), &crossing_faces(after));

@@ -1,6 +1,5 @@
 //! Numbers for the report: how symmetric a shape is, and what a deformation did to it.
 
-mod align;
 pub mod asymmetry;
 pub mod curvature;
 pub mod distortion;

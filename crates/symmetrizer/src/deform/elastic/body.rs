@@ -3,11 +3,13 @@
 use rayon::prelude::*;
 
 use crate::context::Context;
+use crate::deform::carry::motions;
+use crate::deform::elastic::Motion;
 use crate::deform::elastic::binding::Binding;
 use crate::deform::elastic::elements::{Elements, Pulled, Share, Spring};
 use crate::deform::{Deformed, Deformer, Pull, State, check_pulls, check_stiffness, failure};
 use crate::error::{Error, Result};
-use crate::geom::{Point, Vector};
+use crate::geom::{Matrix3, Point, Vector, nearest_orthogonal};
 use crate::shape::{Surface, SurfacePoint};
 
 /// A rest surface and what carries it.
@@ -45,6 +47,39 @@ impl<S: Spring> Body<S> {
         }
         sum.iter()
             .map(|&(s, w)| if w > 0.0 { s / w } else { 1.0 })
+            .collect()
+    }
+
+    /// The motions of the elements that take the rest surface nearest to `moved`: each has the mean rotation of
+    /// the vertices that hang on it, and goes where they go.
+    fn following(&self, moved: &Surface) -> Vec<Motion> {
+        let vertices = motions(&self.rest, moved);
+        let elements = &self.elements.motions;
+        let mut turns = vec![Matrix3::zeros(); elements.len()];
+        let mut places = vec![(Vector::zeros(), 0.0); elements.len()];
+        for (v, vertex) in vertices.iter().enumerate() {
+            for &(element, share) in self.binding.of(v) {
+                let e = element as usize;
+                let w = share * self.rest.vertex_areas[v];
+                turns[e] += w * vertex.rotation;
+                places[e].0 += w * vertex.apply(&elements[e].rest_center).coords;
+                places[e].1 += w;
+            }
+        }
+        let motion = |((old, turn), (sum, w)): ((&Motion, &Matrix3), &(Vector, f64))| Motion {
+            rotation: nearest_orthogonal(turn, false),
+            rest_center: old.rest_center,
+            center: if *w > 0.0 {
+                Point::from(sum / *w)
+            } else {
+                old.center
+            },
+        };
+        elements
+            .iter()
+            .zip(&turns)
+            .zip(&places)
+            .map(motion)
             .collect()
     }
 
@@ -141,6 +176,11 @@ impl<S: Spring> Deformer for Body<S> {
 
     fn energy(&self) -> f64 {
         self.elements.energy() / self.rest.area()
+    }
+
+    fn energy_at(&self, positions: &[Point]) -> f64 {
+        let moved = self.rest.with_positions(positions.to_vec());
+        self.elements.energy_at(&self.following(&moved)) / self.rest.area()
     }
 
     fn positions(&self) -> Vec<Point> {

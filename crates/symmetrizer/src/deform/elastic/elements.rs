@@ -106,7 +106,8 @@ impl<S: Spring> Elements<S> {
         self.energy_at(&self.motions)
     }
 
-    fn energy_at(&self, motions: &[Motion]) -> f64 {
+    /// The elastic energy at other motions, L^2.
+    pub fn energy_at(&self, motions: &[Motion]) -> f64 {
         self.springs.iter().map(|s| s.energy(motions)).sum()
     }
 

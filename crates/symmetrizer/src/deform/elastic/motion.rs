@@ -1,7 +1,7 @@
 //! The rigid motion of one element, about its own centre.
 
 use crate::deform::solver::Twist;
-use crate::geom::{Matrix3, Point, Vector, exp_rotation};
+use crate::geom::{Matrix3, Point, Vector, exp_rotation, nearest_orthogonal};
 
 /// x -> R (x - c) + y: the rest centre c moves to y, the element turns by R about it.
 #[derive(Debug, Clone, Copy)]
@@ -20,6 +20,29 @@ impl Motion {
         Self {
             rotation: Matrix3::identity(),
             rest_center: center,
+            center,
+        }
+    }
+
+    /// What takes the points `p` as near to `q` as a rigid motion does (no reflection, no scale) in the rms
+    /// weighted by `w` (Kabsch; the determinant corrected).
+    ///
+    /// ~ about the weighted means; H = sum w q~ p~^T = U S V^T, R = U diag(1, 1, det(U V^T)) V^T, so that
+    /// R p~ ~ q~.
+    pub fn between(p: &[Point], q: &[Point], w: &[f64]) -> Self {
+        let total: f64 = w.iter().sum();
+        let mean = |x: &[Point]| {
+            let sum: Vector = x.iter().zip(w).map(|(x, w)| x.coords * *w).sum();
+            Point::from(sum / total)
+        };
+        let (rest_center, center) = (mean(p), mean(q));
+        let weighted = p.iter().zip(q).zip(w);
+        let h: Matrix3 = weighted
+            .map(|((p, q), w)| (q - center) * (p - rest_center).transpose() * *w)
+            .sum();
+        Self {
+            rotation: nearest_orthogonal(&h, false),
+            rest_center,
             center,
         }
     }
