@@ -5,9 +5,10 @@ use rayon::prelude::*;
 
 use crate::geom::{Point, Vector};
 use crate::picture::camera::{Camera, unit};
+use crate::picture::checks::Checks;
 use crate::picture::light::{Surroundings, shade, to_linear, to_srgb};
 use crate::picture::normals::corner_normals;
-use crate::picture::planes::{Layer, Sheet};
+use crate::picture::planes::{Layer, Sheet, Tile};
 use crate::picture::visible::{Sights, barycentric};
 use crate::transform::isometry::Plane;
 
@@ -38,8 +39,12 @@ pub struct Scene<'a> {
     pub triangles: &'a [[u32; 3]],
     /// sRGB colour of each vertex in 0..=1, or plain clay; a missing entry is clay too.
     pub colors: Option<&'a [[f32; 3]]>,
+    /// A pattern that takes the place of the colours.
+    pub checks: Option<Checks<'a>>,
     /// Mirror planes with their sRGB colours.
     pub planes: &'a [(Plane, [u8; 3])],
+    /// Pieces of planes.
+    pub tiles: &'a [Tile],
 }
 
 /// The picture of `scene` that `camera` sees, 2 x 2 samples to a pixel.
@@ -157,11 +162,10 @@ impl<'a> Painter<'a> {
         let corners = t.map(|v| self.projected[v as usize]);
         let b = barycentric(&corners, x as f64 + 0.5, y as f64 + 0.5);
         let normal = self.normal(face, &corners, &b);
-        let mut albedo = [0.0; 3];
-        for (v, w) in t.iter().zip(b) {
-            let c = self.color(*v as usize);
-            albedo = std::array::from_fn(|i| albedo[i] + w * f64::from(c[i]));
-        }
+        let albedo = match &self.scene.checks {
+            Some(checks) => checks.color(&mix(t, &b, |v| checks.place(v))),
+            None => mix(t, &b, |v| self.color(v).map(f64::from)),
+        };
         let open = self.surroundings.openness(&self.sights, x, y, &normal);
         shade(&normal, albedo.map(|a| to_linear(a.clamp(0.0, 1.0))), open)
     }
@@ -189,6 +193,12 @@ impl<'a> Painter<'a> {
     }
 }
 
+/// Barycentric mean of what the corners have.
+fn mix(t: [u32; 3], b: &[f64; 3], of: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
+    let [p, q, r] = t.map(|v| of(v as usize));
+    std::array::from_fn(|i| b[0] * p[i] + b[1] * q[i] + b[2] * r[i])
+}
+
 /// Corner normals in camera axes, from vertices in sample coordinates.
 fn picture_normals(projected: &[Vector], triangles: &[[u32; 3]]) -> Vec<[Vector; 3]> {
     let points: Vec<Point> = projected
@@ -207,7 +217,9 @@ fn sheets(scene: &Scene<'_>, camera: &Camera, triangles: &[[u32; 3]]) -> Vec<She
     let half_line = 0.85 * f64::from(SAMPLES);
     let sheet =
         |(plane, color): &(Plane, [u8; 3])| Sheet::new(plane, *color, &used, camera, half_line);
-    scene.planes.iter().filter_map(sheet).collect()
+    let tiles = scene.tiles.iter();
+    let tiles = tiles.filter_map(|t| Sheet::over(t, camera, half_line));
+    scene.planes.iter().filter_map(sheet).chain(tiles).collect()
 }
 
 fn over(layer: &Layer, below: [f64; 4]) -> [f64; 4] {

@@ -43,6 +43,13 @@ impl Blend {
         self.0.par_iter().map(at).collect()
     }
 
+    /// The mean of what the samples at each vertex have.
+    pub fn means(&self, of: &[Vector]) -> Vec<Vector> {
+        let at =
+            |carriers: &Vec<(u32, f64)>| carriers.iter().map(|&(s, w)| w * of[s as usize]).sum();
+        self.0.par_iter().map(at).collect()
+    }
+
     /// Where the samples' motions carry each vertex of `surface`.
     pub fn positions(&self, surface: &Surface, motions: &[Motion]) -> Vec<Point> {
         let at = |(carriers, x): (&Vec<(u32, f64)>, &Point)| {
