@@ -19,6 +19,10 @@ pub const CLAY: [f32; 3] = [0.86, 0.82, 0.775];
 /// How far occluders darken the clay, as a share of the picture's shorter side.
 const REACH: f64 = 0.055;
 
+/// Half the width of the outlines of planes and of tiles, pixels.
+const PLANE_LINE: f64 = 0.85;
+const TILE_LINE: f64 = 1.3;
+
 /// What is behind the shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Background {
@@ -214,12 +218,14 @@ fn sheets(scene: &Scene<'_>, camera: &Camera, triangles: &[[u32; 3]]) -> Vec<She
         .flatten()
         .map(|&v| scene.positions[v as usize])
         .collect();
-    let half_line = 0.85 * f64::from(SAMPLES);
-    let sheet =
-        |(plane, color): &(Plane, [u8; 3])| Sheet::new(plane, *color, &used, camera, half_line);
+    let half = |line: f64| line * f64::from(SAMPLES);
+    let planes = scene
+        .planes
+        .iter()
+        .filter_map(|(plane, color)| Sheet::new(plane, *color, &used, camera, half(PLANE_LINE)));
     let tiles = scene.tiles.iter();
-    let tiles = tiles.filter_map(|t| Sheet::over(t, camera, half_line));
-    scene.planes.iter().filter_map(sheet).chain(tiles).collect()
+    let tiles = tiles.filter_map(|tile| Sheet::over(tile, camera, half(TILE_LINE)));
+    planes.chain(tiles).collect()
 }
 
 fn over(layer: &Layer, below: [f64; 4]) -> [f64; 4] {

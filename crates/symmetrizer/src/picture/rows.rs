@@ -18,10 +18,10 @@ const TITLE: u32 = 46;
 const LINE: u32 = 24;
 const HEAD: u32 = 58;
 /// Height of a picture, beside its width: no less and no more.
-const TALL: [f64; 2] = [0.45, 1.05];
-/// Width of a line across a picture and of its pale rim, radius of its knots, pixels.
-const STROKE: [f64; 2] = [2.2, 5.0];
-const KNOT: f64 = 3.2;
+const TALL: [f64; 2] = [0.45, 0.8];
+/// Width of a line through a shape, radius of its knots, pixels.
+const STROKE: f64 = 1.5;
+const KNOT: f64 = 2.6;
 
 /// A page.
 #[derive(Debug, Clone, Default)]
@@ -102,12 +102,13 @@ impl Row<'_> {
         canvas.text(name);
         for (words, color) in &self.note {
             let text = Text::new(words.as_str(), x, base, 15.0);
-            let text = text.within(f64::from(WIDTH - MARGIN) - x);
-            x += text.width() + 14.0;
-            canvas.text(match color {
+            let text = match color {
                 Some(color) => text.colored(*color).bold(),
                 None => text.colored(GREY),
-            });
+            };
+            let text = text.within(f64::from(WIDTH - MARGIN) - x);
+            x += text.width() + 14.0;
+            canvas.text(text);
         }
         for (k, (cell, camera)) in self.cells.iter().zip(&placed.cameras).enumerate() {
             let x = MARGIN + k as u32 * (placed.size[0] + GAP);
@@ -125,13 +126,11 @@ impl Cell<'_> {
             let at = camera.project(p);
             [left + at.x, top + at.y]
         };
-        for (width, color) in [(STROKE[1], [255; 3]), (STROKE[0], INK)] {
-            for ends in self.line.windows(2) {
-                canvas.line(place(&ends[0]), place(&ends[1]), width, color);
-            }
+        for ends in self.line.windows(2) {
+            canvas.line(place(&ends[0]), place(&ends[1]), STROKE, INK);
         }
         for p in self.line {
-            canvas.circle(place(p), KNOT, STROKE[0], INK);
+            canvas.circle(place(p), KNOT, STROKE, INK);
         }
     }
 

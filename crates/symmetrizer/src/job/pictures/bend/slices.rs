@@ -15,7 +15,9 @@ const LEAST: usize = 5;
 /// How much of its slice a mirror is long.
 const FILLED: f64 = 0.84;
 /// How far a mirror reaches beyond the shape, fraction of L.
-const BEYOND: f64 = 0.05;
+const BEYOND: f64 = 0.06;
+/// How often the spine is smoothed: where legs begin, the middles of pairs sink.
+const SMOOTH: usize = 4;
 
 /// The slices of a shape.
 pub struct Slices {
@@ -33,6 +35,8 @@ struct Slice {
     all: Vec<SurfacePoint>,
     /// Their places on the straight shape, those of pairs one after the other.
     straight: Vec<Point>,
+    /// How far across the spine it is from the middle of its pairs, fraction of L.
+    sunk: f64,
     /// The mean normal of its local mirrors on the input.
     normal: Vector,
     color: [u8; 3],
@@ -48,8 +52,10 @@ impl Slices {
         });
         let at = |k: usize| low + (high - low) * k as f64 / SLICES as f64;
         let slice = |k: usize| Slice::new([at(k), at(k + 1)], bend, samples, straight, chart);
+        let mut slices: Vec<Slice> = (0..SLICES).filter_map(slice).collect();
+        even(&mut slices, &chart.across);
         Self {
-            slices: (0..SLICES).filter_map(slice).collect(),
+            slices,
             axes: [chart.along, chart.across],
         }
     }
@@ -101,6 +107,7 @@ impl Slice {
             pairs,
             all: all.iter().map(|&s| samples.list[s].at).collect(),
             normal: sorted_eigen(&tensor).1.column(2).into_owned(),
+            sunk: 0.0,
             color: hue((low + high) / 2.0),
         })
     }
@@ -134,7 +141,24 @@ impl Slice {
             from + across * high,
         ];
         let color = self.color;
-        (Tile { corners, color }, middle)
+        (Tile { corners, color }, middle + across * self.sunk)
+    }
+}
+
+/// Makes the spine run evenly in the mirror.
+fn even(slices: &mut [Slice], across: &Vector) {
+    let heights = slices.iter().map(|s| across.dot(&mean(&s.straight).coords));
+    let heights: Vec<f64> = heights.collect();
+    let mut smooth = heights.clone();
+    for _ in 0..SMOOTH {
+        let was = smooth.clone();
+        let at = |k: usize| was[k.min(was.len() - 1)];
+        for (k, h) in smooth.iter_mut().enumerate() {
+            *h = (at(k.saturating_sub(1)) + 2.0 * at(k) + at(k + 1)) / 4.0;
+        }
+    }
+    for ((slice, smooth), height) in slices.iter_mut().zip(&smooth).zip(&heights) {
+        slice.sunk = smooth - height;
     }
 }
 

@@ -13,9 +13,13 @@ pub fn views(straight: &Straightened, normals: &[Vector]) -> [(&'static str, Vie
     let stance = Stance::about(Some(&straight.plane), &straight.positions);
     let (up, front) = (stance.up, stance.front);
     let right = up.cross(&front);
+    let axis = axis(normals);
+    // In the straight shape's mirror, so that this is seen edge-on.
+    let normal = straight.plane.normal;
+    let level = axis - normal * normal.dot(&axis);
     let left = View::new(right * 0.8 - up * 0.42 - front, up);
     [
-        ("along the axis of the bend", along(&axis(normals), &stance)),
+        ("along the axis of the bend", along(&level, &stance)),
         ("from the right", stance.view(Angle::ThreeQuarter)),
         ("from the left", left),
     ]
