@@ -228,6 +228,26 @@ mod tests {
     use super::*;
 
     #[test]
+    fn an_uncertain_bend_asks_for_a_look() {
+        let mut report = BendReport {
+            verdict: Verdict::Uncertain,
+            score: 0.3,
+            trusted: 0.6,
+            likeness: 0.5,
+            relief: 0.4,
+            degrees: 34.0,
+            removed: 0.0,
+            kept: None,
+        };
+        let text = bend(&report, Some(Path::new("p.png")));
+        assert!(text.contains("p.png shows its pairs"), "{text}");
+        assert!(text.contains("--accept-uncertain"), "{text}");
+        assert!(bend(&report, None).contains("--picture FILE"));
+        report.removed = 34.0;
+        assert!(!bend(&report, None).contains("--accept-uncertain"));
+    }
+
+    #[test]
     fn numbers_are_readable() {
         assert_eq!(grouped(7), "7");
         assert_eq!(grouped(123), "123");

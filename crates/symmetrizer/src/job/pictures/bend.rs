@@ -64,6 +64,14 @@ pub fn rows(job: &Symmetrized) -> Result<Option<Canvas>> {
     Ok(Some(page.canvas()))
 }
 
+/// The places by which the pairs of the bend of `job` are coloured; none where it has none.
+///
+/// # Errors
+/// [`crate::Error::Numerical`].
+pub fn chart(job: &Symmetrized) -> Result<Option<Chart>> {
+    Ok(Shown::new(job)?.map(|shown| shown.chart))
+}
+
 /// A bend and what is drawn of it.
 struct Shown<'a> {
     job: &'a Symmetrized,
@@ -278,10 +286,14 @@ impl<'a> Shown<'a> {
         let report = self.report;
         let least = self.job.report.head.params.straighten.min_bend;
         match report.verdict {
-            _ if self.bent.straight.is_some() => format!(
-                "{:.0} of {:.0} degrees removed",
-                report.removed, report.degrees
-            ),
+            _ if self.bent.straight.is_some() => match &report.kept {
+                Some(kept) => format!(
+                    "{:.0} degrees removed, {:.0} kept: both sides are alike about the mirrors as they are \
+                     bent then",
+                    report.removed, kept.degrees
+                ),
+                None => format!("{:.0} degrees removed", report.removed),
+            },
             Verdict::Refuse => "the bend was left alone".into(),
             _ if report.degrees < least => {
                 format!("left alone: less than {least} degrees (straighten.min_bend)")
