@@ -20,6 +20,7 @@ use crate::shape::working::{Mended, Working};
 use crate::shape::{Document, Mesh};
 use crate::transform::{Elements, Plane};
 
+pub use bent::Bent;
 pub use measured::{Measured, measure_in};
 
 /// A state of a shape and the symmetries found in it.
@@ -44,6 +45,8 @@ pub struct Symmetrized {
     /// The result and its symmetries, in the working coordinates of the input; none where no
     /// symmetry was found.
     pub after: Option<Detected>,
+    /// The bend that was found in the input, whatever was made of it.
+    pub bend: Option<Bent>,
     /// The planes by which `report` measures asymmetry before and after, working coordinates.
     pub planes: [Plane; 2],
     /// Everything in figures.
@@ -157,7 +160,7 @@ fn made(
     };
     let surface = &before.working.surface;
     let exact = measured.max <= EXACT && !before.symmetries().is_empty();
-    let mut bend = None;
+    let (mut bend, mut bent) = (None, None);
     let done = if exact {
         let outcome = if only {
             Outcome::NoSymmetry
@@ -168,7 +171,7 @@ fn made(
     } else {
         let mean = measured.mean / 100.0 * before.diagonal;
         let looked = bent::unbend(&before, mean, &params.straighten, settings, ctx)?;
-        bend = looked.report;
+        (bend, bent) = (looked.report, looked.bent);
         match looked.done {
             Some(done) => done,
             None if only => Optimized::unmoved(surface, &before.detection, Outcome::NoSymmetry),
@@ -193,6 +196,7 @@ fn made(
         outcome: done.outcome,
         before,
         after: None,
+        bend: bent,
         planes: [measured.plane; 2],
         report,
     };

@@ -11,6 +11,9 @@ use symmetrizer::field::Reach;
 use symmetrizer::field::grow::Land;
 use symmetrizer::field::trust::Verdict;
 use symmetrizer::geom::{Matrix3, Point, Vector, nearest_orthogonal};
+use symmetrizer::job::pictures;
+use symmetrizer::shape::SurfacePoint;
+use symmetrizer::shape::models::Creature;
 use symmetrizer::shape::{ClosestPoint, Surface};
 use symmetrizer::straighten::{Bend, straighten};
 use symmetrizer::{Context, Mesh, Params, symmetrize};
@@ -240,4 +243,47 @@ fn a_run_straightens_or_keeps_the_pose() {
     params.set("straighten.when", "\"never\"").expect("known");
     let done = symmetrize(&cow, &params, &mut Context::new(0)).expect("done");
     assert!(done.report.bend.is_none());
+}
+
+#[test]
+fn partners_have_the_same_colours() {
+    let mesh = Creature::default().mesh();
+    let mut params = Params::default();
+    params.sample.count = 800;
+    params.deform.control_faces = 1000;
+    let job = symmetrize(&mesh, &params, &mut Context::new(0)).expect("done");
+    let chart = pictures::bend::chart(&job)
+        .expect("solvable")
+        .expect("a bend");
+    let triangles = &job.before.working.surface.triangles;
+    let place = |at: &SurfacePoint| {
+        let corners = triangles[at.face as usize].iter().zip(at.bary);
+        let corners = corners.map(|(&v, b)| Vector::from(chart.places[v as usize]) * b);
+        corners.sum::<Vector>().xy()
+    };
+    let bend = &job.bend.as_ref().expect("a bend").bend;
+    let samples = job.before.detection.samples.list.iter();
+    let mut apart: Vec<f64> = samples
+        .zip(&bend.field.partners)
+        .filter_map(|(s, partner)| Some((place(&s.at) - place(&partner.as_ref()?.at)).norm()))
+        .collect();
+    apart.sort_by(f64::total_cmp);
+    let [half, most] = [apart.len() / 2, apart.len() * 95 / 100].map(|k| apart[k]);
+    println!(
+        "{} pairs, {half:.4} apart, 95 % less than {most:.4}",
+        apart.len()
+    );
+    // A square has a side of 0.056.
+    assert!(
+        apart.len() > 400 && half < 0.01 && most < 0.03,
+        "{half} {most}"
+    );
+
+    // Its picture has more below both states; without a bend it has not.
+    let tall = pictures::before_after(&job, "").expect("drawn").height();
+    params.set("straighten.when", "\"never\"").expect("known");
+    let job = symmetrize(&mesh, &params, &mut Context::new(0)).expect("done");
+    assert!(job.bend.is_none());
+    let plain = pictures::before_after(&job, "").expect("drawn").height();
+    assert!(tall > plain + 1500, "{tall} and {plain}");
 }

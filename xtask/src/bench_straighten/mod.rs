@@ -99,7 +99,10 @@ fn one(name: &str, args: &Args) -> Result<[String; 11]> {
     let looked = lap();
     let (field, positions) = match &bend {
         Some(bend) => (bend.settled.clone(), straighten(&land, bend)?.positions),
-        None => (find(&land, &mirrors, &ctx)?, working.surface.positions.clone()),
+        None => (
+            find(&land, &mirrors, &ctx)?,
+            working.surface.positions.clone(),
+        ),
     };
     let straightened = lap();
     let right = truth

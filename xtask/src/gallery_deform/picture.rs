@@ -97,7 +97,7 @@ impl Painted {
             positions: &self.corners,
             triangles: &self.triangles,
             colors: Some(&self.colors),
-            planes: &[],
+            ..Scene::default()
         };
         render(&scene, camera, Background::White)
     }

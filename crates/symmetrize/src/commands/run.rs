@@ -100,9 +100,14 @@ fn carry_out(
     let found = job.outcome != Outcome::NoSymmetry;
     let shape = found || args.write_unchanged;
     files.write(shape, &document, &mut job, args, (&mut ctx, desk))?;
-    desk.say(&summary::run(&job.report));
-    desk.say(&args.written(shape));
+    desk.say(&summary::run(&job.report, args.picture.as_deref()));
+    desk.say(&args.written(shape, is_drawn(shape, &job)));
     Ok(if found { Answer::Yes } else { Answer::No })
+}
+
+/// Whether there is something to draw: the `shape` that is written, or a bend that a person should see.
+fn is_drawn(shape: bool, job: &Symmetrized) -> bool {
+    shape || job.bend.is_some()
 }
 
 impl RunArgs {
@@ -137,12 +142,12 @@ impl RunArgs {
     }
 
     /// The line that says where everything is.
-    fn written(&self, shape: bool) -> String {
+    fn written(&self, shape: bool, drawn: bool) -> String {
         let mut paths: Vec<&Path> = Vec::new();
         paths.extend(shape.then_some(self.output.as_path()));
         paths.extend(self.write_input.as_deref());
         paths.extend(self.report.as_deref());
-        paths.extend(self.picture.as_deref().filter(|_| shape));
+        paths.extend(self.picture.as_deref().filter(|_| drawn));
         let names: Vec<String> = paths.iter().map(|p| p.display().to_string()).collect();
         if names.is_empty() {
             return "wrote        nothing\n".into();
@@ -174,7 +179,7 @@ impl Files {
         })
     }
 
-    /// Writes what the job came to; without `shape` no result and no picture.
+    /// Writes what the job came to; without `shape` no result.
     fn write(
         self,
         shape: bool,
@@ -196,9 +201,9 @@ impl Files {
             }
             Ok(())
         })?;
-        if let Some(file) = self.picture.filter(|_| shape) {
+        if let Some(file) = self.picture.filter(|_| is_drawn(shape, job)) {
             complete.push(ctx.stage("picture", |_| {
-                file.write(&pictures::before_after(job, &args.input.title()))
+                file.write(&pictures::before_after(job, &args.input.title())?)
             })?);
         }
         if let Some(file) = self.report {

@@ -5,6 +5,7 @@ mod refused;
 mod together;
 
 use std::fmt::Write;
+use std::path::Path;
 
 use symmetrizer::apply::measure::{AsymmetryReport, Distortion, PlaneReport};
 use symmetrizer::field::trust::Verdict;
@@ -33,12 +34,13 @@ pub fn shape(shape: &ShapeReport) -> String {
     )
 }
 
-/// Everything about a run but its files.
-pub fn run(report: &Report) -> String {
+/// Everything about a run but its files; a `picture` that was asked for shows what a person should look at.
+pub fn run(report: &Report, picture: Option<&Path>) -> String {
     let mut text = shape(&report.input.shape);
     text += "\n";
+    let bend = report.bend.as_ref();
+    let bend = bend.map_or_else(String::new, |b| self::bend(b, picture));
     let Some(result) = &report.result else {
-        let bend = report.bend.as_ref().map_or_else(String::new, bend);
         return text + &symmetries(&report.input, true) + &bend + &warnings(&report.warnings);
     };
     text += &symmetries(&report.input, false);
@@ -53,7 +55,7 @@ pub fn run(report: &Report) -> String {
     ];
     text += &asymmetry(&states);
     text += &distortion(&result.distortion);
-    text += &report.bend.as_ref().map_or_else(String::new, bend);
+    text += &bend;
     let _ = writeln!(text, "energy       {:.2e}", result.energy);
     let _ = writeln!(text, "outcome      {}", outcome(report.outcome));
     text + &warnings(&report.warnings)
@@ -106,12 +108,10 @@ pub fn plane(plane: &PlaneReport) -> String {
 }
 
 /// What was made of a bend.
-fn bend(bend: &BendReport) -> String {
+fn bend(bend: &BendReport, picture: Option<&Path>) -> String {
     let verdict = match bend.verdict {
         Verdict::Accept => "symmetric about its bent axis",
-        Verdict::Uncertain => {
-            "perhaps symmetric about a bent axis: look at it with --accept-uncertain"
-        }
+        Verdict::Uncertain => "uncertain, perhaps symmetric about a bent axis",
         Verdict::Refuse => "no symmetry about a bent axis that could be trusted",
     };
     let kept = bend.kept.as_ref().map_or_else(String::new, |kept| {
@@ -121,15 +121,28 @@ fn bend(bend: &BendReport) -> String {
             kept.degrees, kept.across, kept.line
         )
     });
+    let ask = match bend.verdict {
+        Verdict::Uncertain if bend.removed == 0.0 && bend.kept.is_none() => look(picture),
+        _ => String::new(),
+    };
     format!(
         "bend         {verdict} (score {:.2}: {:.0} % trusted, likeness {:.2}); local mirrors turn by {:.0} \
-         degrees, {:.0} removed\n{kept}",
+         degrees, {:.0} removed\n{kept}{ask}",
         bend.score,
         100.0 * bend.trusted,
         bend.likeness,
         bend.degrees,
         bend.removed
     )
+}
+
+/// Asks whether an uncertain bend is to be undone.
+fn look(picture: Option<&Path>) -> String {
+    let see = match picture {
+        Some(path) => format!("{} shows its pairs", path.display()),
+        None => "--picture FILE shows its pairs".into(),
+    };
+    format!("             {see}; where they belong together, --accept-uncertain undoes it\n")
 }
 
 fn done(step: &Step) -> String {
@@ -213,6 +226,26 @@ pub fn short(x: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_uncertain_bend_asks_for_a_look() {
+        let mut report = BendReport {
+            verdict: Verdict::Uncertain,
+            score: 0.3,
+            trusted: 0.6,
+            likeness: 0.5,
+            relief: 0.4,
+            degrees: 34.0,
+            removed: 0.0,
+            kept: None,
+        };
+        let text = bend(&report, Some(Path::new("p.png")));
+        assert!(text.contains("p.png shows its pairs"), "{text}");
+        assert!(text.contains("--accept-uncertain"), "{text}");
+        assert!(bend(&report, None).contains("--picture FILE"));
+        report.removed = 34.0;
+        assert!(!bend(&report, None).contains("--accept-uncertain"));
+    }
 
     #[test]
     fn numbers_are_readable() {

@@ -11,15 +11,25 @@ use crate::optimize::schedule::{Settings, prepared};
 use crate::optimize::{Optimized, Step, complete};
 use crate::report::{BendReport, KeptReport};
 use crate::shape::ClosestPoint;
-use crate::straighten::{Bend, StraightenParams, When, bend_again, straighten};
+use crate::straighten::{Bend, StraightenParams, Straightened, When, bend_again, straighten};
 
 /// Distance along the surface that a field looks at, fraction of L.
-const REACH: f64 = 0.12;
+pub(super) const REACH: f64 = 0.12;
+
+/// A bend that was found, for pictures of it.
+pub struct Bent {
+    /// The bend.
+    pub bend: Bend,
+    /// The shape without it, not yet symmetric; none where the bend was left.
+    pub straight: Option<Straightened>,
+}
 
 /// What came of looking for a bend.
 pub(super) struct Looked {
     /// The figures, whatever came of it.
     pub report: Option<BendReport>,
+    /// What they are about.
+    pub bent: Option<Bent>,
     /// The work, where the bend was undone.
     pub done: Option<Optimized>,
 }
@@ -35,6 +45,7 @@ pub(super) fn unbend(
 ) -> Result<Looked> {
     let nothing = Looked {
         report: None,
+        bent: None,
         done: None,
     };
     if params.when == When::Never || before.symmetries().is_empty() {
@@ -54,6 +65,10 @@ pub(super) fn unbend(
     if bend.degrees < params.min_bend || !wanted(report.verdict, params.when) {
         return Ok(Looked {
             report: Some(report),
+            bent: Some(Bent {
+                bend,
+                straight: None,
+            }),
             done: None,
         });
     }
@@ -110,6 +125,10 @@ pub(super) fn unbend(
     done.energy = body.energy_at(&done.positions);
     Ok(Looked {
         report: Some(report),
+        bent: Some(Bent {
+            bend,
+            straight: Some(straight),
+        }),
         done: Some(done),
     })
 }

@@ -3,6 +3,7 @@
 //! All of it is computed from the job when it is asked for; planes, patches and their clusters have
 //! the same colour, that of the symmetry's id.
 
+pub mod bend;
 mod parts;
 mod plots;
 
@@ -13,6 +14,7 @@ use plots::Votes;
 
 use crate::apply::measure::per_vertex;
 use crate::cluster::Projection;
+use crate::error::Result;
 use crate::job::{Detected, Measured, Symmetrized};
 use crate::picture::{
     Angle, Canvas, Extent, Panel, ReportPicture, ScalarField, Sheet, categorical, render_sheet,
@@ -31,8 +33,21 @@ const PALE: f64 = 0.02;
 const SCALE_LABEL: &str = "asymmetry, % of D";
 
 /// The job in one picture, headed by `title`: input above result, coloured by asymmetry, with the
-/// planes and the votes. Where no symmetry was found, the input's views alone.
-pub fn before_after(job: &Symmetrized, title: &str) -> Canvas {
+/// planes and the votes; below them the bend that was found. Where no symmetry was found, the input's
+/// views in the place of both states.
+///
+/// # Errors
+/// [`crate::Error::Numerical`].
+pub fn before_after(job: &Symmetrized, title: &str) -> Result<Canvas> {
+    let states = states(job, title);
+    Ok(match bend::rows(job)? {
+        Some(rows) => states.above(rows),
+        None => states,
+    })
+}
+
+/// Input above result.
+fn states(job: &Symmetrized, title: &str) -> Canvas {
     let before = &job.before;
     let Some(after) = &job.after else {
         return views(before, title);

@@ -148,6 +148,22 @@ pub(super) enum Mark {
     },
 }
 
+impl Mark {
+    /// The same further down, pixels.
+    fn lowered(mut self, by: f64) -> Self {
+        match &mut self {
+            Self::Text(text) => text.y += by,
+            Self::Line { from, to, .. } => {
+                from[1] += by;
+                to[1] += by;
+            }
+            Self::Circle { center, .. } => center[1] += by,
+            Self::Frame { rect, .. } | Self::Bar { rect, .. } => rect[1] += by,
+        }
+        self
+    }
+}
+
 /// A picture with its top left corner, whole pixels.
 #[derive(Debug, Clone)]
 pub(super) struct Placed {
@@ -191,6 +207,19 @@ impl Canvas {
         if image.width() > 0 && image.height() > 0 {
             self.images.push(Placed { x, y, image });
         }
+    }
+
+    /// This page and `other` below it.
+    pub fn above(mut self, other: Self) -> Self {
+        let down = self.height;
+        let images = other.images.into_iter();
+        self.images
+            .extend(images.map(|i| Placed { y: i.y + down, ..i }));
+        let marks = other.marks.into_iter();
+        self.marks.extend(marks.map(|m| m.lowered(down.into())));
+        self.width = self.width.max(other.width);
+        self.height += other.height;
+        self
     }
 
     /// Writes a line of text.

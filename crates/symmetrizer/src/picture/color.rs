@@ -11,6 +11,8 @@ pub enum ColorMap {
     Magma,
     /// Dark blue through green to yellow.
     Viridis,
+    /// Blue through green and yellow to red. For places: its lightness is in no order.
+    Turbo,
 }
 
 impl ColorMap {
@@ -24,6 +26,7 @@ impl ColorMap {
             Self::Heat => (colorous::ORANGE_RED, 0.94),
             Self::Magma => (colorous::MAGMA, 1.0),
             Self::Viridis => (colorous::VIRIDIS, 1.0),
+            Self::Turbo => (colorous::TURBO, 1.0),
         };
         gradient
             .eval_continuous(t.clamp(0.0, 1.0) * end)

@@ -148,6 +148,7 @@ impl Gallery<'_> {
             triangles: &triangles,
             colors: Some(&colors),
             planes: &exhibit.planes,
+            ..Scene::default()
         };
         render(&scene, camera, Background::White)
     }

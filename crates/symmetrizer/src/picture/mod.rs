@@ -7,6 +7,7 @@
 
 pub mod camera;
 pub mod canvas;
+pub mod checks;
 pub mod color;
 pub mod density;
 pub mod gallery;
@@ -17,6 +18,7 @@ mod raster;
 pub mod render;
 pub mod report;
 pub mod rods;
+pub mod rows;
 pub mod sheet;
 pub mod stance;
 mod svg;
@@ -25,11 +27,14 @@ mod visible;
 
 pub use camera::{Camera, View};
 pub use canvas::Canvas;
+pub use checks::Checks;
 pub use color::{ColorMap, ColorScale, categorical};
 pub use density::{DensityPlot, Extent, PlotMode};
 pub use gallery::{Exhibit, Gallery};
+pub use planes::Tile;
 pub use render::{Background, Scene, render};
 pub use report::{Panel, ReportPicture};
 pub use rods::Rod;
+pub use rows::{Cell, Row, Rows};
 pub use sheet::{ScalarField, Sheet, render_sheet, strongest};
 pub use stance::{Angle, Stance, views_about};

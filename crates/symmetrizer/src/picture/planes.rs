@@ -24,7 +24,16 @@ pub(super) struct Layer {
     pub opacity: f64,
 }
 
-/// A rectangle of a mirror plane around the shape, projected into a picture.
+/// A rectangle in space, drawn as a translucent sheet with an outline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tile {
+    /// Its corners in order, model units.
+    pub corners: [Point; 4],
+    /// sRGB.
+    pub color: [u8; 3],
+}
+
+/// A rectangle projected into a picture: of a mirror plane around the shape, or a tile.
 pub(super) struct Sheet {
     color: [f64; 3],
     /// The corners in order, sample coordinates and depth.
@@ -60,10 +69,16 @@ impl Sheet {
         camera: &Camera,
         half_line: f64,
     ) -> Option<Self> {
-        let corners = corners(plane, positions)?.map(|c| camera.project(&c));
+        let corners = corners(plane, positions)?;
+        Self::over(&Tile { corners, color }, camera, half_line)
+    }
+
+    /// The `tile`, or `None` where it has no place.
+    pub fn over(tile: &Tile, camera: &Camera, half_line: f64) -> Option<Self> {
+        let corners = tile.corners.map(|c| camera.project(&c));
         let finite = corners.iter().all(|c| c.iter().all(|x| x.is_finite()));
         finite.then_some(Self {
-            color: color.map(|c| to_linear(f64::from(c) / 255.0)),
+            color: tile.color.map(|c| to_linear(f64::from(c) / 255.0)),
             corners,
             half_line,
         })
@@ -88,9 +103,11 @@ impl Sheet {
     /// The line on the shape's surface at a sample position with depth, where the sheet cuts it.
     pub fn cut(&self, at: &Vector) -> Option<Layer> {
         let [o, u, _, v] = self.corners;
-        let normal = unit((u - o).cross(&(v - o)))?;
-        let near = normal.dot(&(at - o)).abs() <= self.half_line;
-        near.then_some(Layer {
+        let (u, v, way) = (u - o, v - o, at - o);
+        let normal = unit(u.cross(&v))?;
+        let near = normal.dot(&way).abs() <= self.half_line;
+        let beside = |side: &Vector| (0.0..=side.norm_squared()).contains(&side.dot(&way));
+        (near && beside(&u) && beside(&v)).then_some(Layer {
             depth: at.z,
             color: self.color,
             opacity: CUT,

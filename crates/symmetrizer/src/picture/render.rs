@@ -5,9 +5,10 @@ use rayon::prelude::*;
 
 use crate::geom::{Point, Vector};
 use crate::picture::camera::{Camera, unit};
+use crate::picture::checks::Checks;
 use crate::picture::light::{Surroundings, shade, to_linear, to_srgb};
 use crate::picture::normals::corner_normals;
-use crate::picture::planes::{Layer, Sheet};
+use crate::picture::planes::{Layer, Sheet, Tile};
 use crate::picture::visible::{Sights, barycentric};
 use crate::transform::isometry::Plane;
 
@@ -17,6 +18,10 @@ const SAMPLES: u32 = 2;
 pub const CLAY: [f32; 3] = [0.86, 0.82, 0.775];
 /// How far occluders darken the clay, as a share of the picture's shorter side.
 const REACH: f64 = 0.055;
+
+/// Half the width of the outlines of planes and of tiles, pixels.
+const PLANE_LINE: f64 = 0.85;
+const TILE_LINE: f64 = 1.3;
 
 /// What is behind the shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -38,8 +43,12 @@ pub struct Scene<'a> {
     pub triangles: &'a [[u32; 3]],
     /// sRGB colour of each vertex in 0..=1, or plain clay; a missing entry is clay too.
     pub colors: Option<&'a [[f32; 3]]>,
+    /// A pattern that takes the place of the colours.
+    pub checks: Option<Checks<'a>>,
     /// Mirror planes with their sRGB colours.
     pub planes: &'a [(Plane, [u8; 3])],
+    /// Pieces of planes.
+    pub tiles: &'a [Tile],
 }
 
 /// The picture of `scene` that `camera` sees, 2 x 2 samples to a pixel.
@@ -157,11 +166,10 @@ impl<'a> Painter<'a> {
         let corners = t.map(|v| self.projected[v as usize]);
         let b = barycentric(&corners, x as f64 + 0.5, y as f64 + 0.5);
         let normal = self.normal(face, &corners, &b);
-        let mut albedo = [0.0; 3];
-        for (v, w) in t.iter().zip(b) {
-            let c = self.color(*v as usize);
-            albedo = std::array::from_fn(|i| albedo[i] + w * f64::from(c[i]));
-        }
+        let albedo = match &self.scene.checks {
+            Some(checks) => checks.color(&mix(t, &b, |v| checks.place(v))),
+            None => mix(t, &b, |v| self.color(v).map(f64::from)),
+        };
         let open = self.surroundings.openness(&self.sights, x, y, &normal);
         shade(&normal, albedo.map(|a| to_linear(a.clamp(0.0, 1.0))), open)
     }
@@ -189,6 +197,12 @@ impl<'a> Painter<'a> {
     }
 }
 
+/// Barycentric mean of what the corners have.
+fn mix(t: [u32; 3], b: &[f64; 3], of: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
+    let [p, q, r] = t.map(|v| of(v as usize));
+    std::array::from_fn(|i| b[0] * p[i] + b[1] * q[i] + b[2] * r[i])
+}
+
 /// Corner normals in camera axes, from vertices in sample coordinates.
 fn picture_normals(projected: &[Vector], triangles: &[[u32; 3]]) -> Vec<[Vector; 3]> {
     let points: Vec<Point> = projected
@@ -204,10 +218,14 @@ fn sheets(scene: &Scene<'_>, camera: &Camera, triangles: &[[u32; 3]]) -> Vec<She
         .flatten()
         .map(|&v| scene.positions[v as usize])
         .collect();
-    let half_line = 0.85 * f64::from(SAMPLES);
-    let sheet =
-        |(plane, color): &(Plane, [u8; 3])| Sheet::new(plane, *color, &used, camera, half_line);
-    scene.planes.iter().filter_map(sheet).collect()
+    let half = |line: f64| line * f64::from(SAMPLES);
+    let planes = scene
+        .planes
+        .iter()
+        .filter_map(|(plane, color)| Sheet::new(plane, *color, &used, camera, half(PLANE_LINE)));
+    let tiles = scene.tiles.iter();
+    let tiles = tiles.filter_map(|tile| Sheet::over(tile, camera, half(TILE_LINE)));
+    planes.chain(tiles).collect()
 }
 
 fn over(layer: &Layer, below: [f64; 4]) -> [f64; 4] {

@@ -128,8 +128,7 @@ impl ReportPicture<'_> {
         let clay = Scene {
             positions: panel.positions,
             triangles: self.triangles,
-            colors: None,
-            planes: &[],
+            ..Scene::default()
         };
         let colored = Scene {
             colors: Some(&colors),

@@ -91,6 +91,7 @@ fn draw_views(canvas: &mut Canvas, sheet: &Sheet<'_>, angles: &[Angle], size: [u
         triangles: sheet.triangles,
         colors: colors.as_deref(),
         planes: sheet.planes,
+        ..Scene::default()
     };
     for (i, (camera, angle)) in cameras.iter().zip(angles).enumerate() {
         let x = MARGIN + i as u32 * size[0];

@@ -68,7 +68,7 @@ impl Bend {
 
     /// How far each vertex of the surface may be changed, 0 to 1, where the symmetry holds for a part only.
     pub fn region(&self, land: &Land<'_>) -> Vec<f64> {
-        Blend::new(land.surface, land.samples).values(&self.trust.region(land))
+        Blend::new(land.surface, land.samples).means(&self.trust.region(land))
     }
 
     fn find_on(

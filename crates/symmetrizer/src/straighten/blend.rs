@@ -1,5 +1,8 @@
 //! How the samples carry the vertices.
 
+use std::iter::Sum;
+use std::ops::Mul;
+
 use rayon::prelude::*;
 
 use crate::deform::elastic::Motion;
@@ -43,12 +46,14 @@ impl Blend {
         self.0.par_iter().map(at).collect()
     }
 
-    /// The samples' values at each vertex.
-    pub fn values(&self, of: &[f64]) -> Vec<f64> {
-        let at = |carriers: &Vec<(u32, f64)>| -> f64 {
-            carriers.iter().map(|&(s, w)| w * of[s as usize]).sum()
-        };
-        self.0.iter().map(at).collect()
+    /// The mean of what the samples at each vertex have.
+    pub fn means<T>(&self, of: &[T]) -> Vec<T>
+    where
+        T: Copy + Mul<f64, Output = T> + Sum + Send + Sync,
+    {
+        let at =
+            |carriers: &Vec<(u32, f64)>| carriers.iter().map(|&(s, w)| of[s as usize] * w).sum();
+        self.0.par_iter().map(at).collect()
     }
 
     /// Where the samples' motions carry each vertex of `surface`.

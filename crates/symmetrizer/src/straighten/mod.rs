@@ -2,7 +2,7 @@
 //! one.
 
 mod bend;
-mod blend;
+pub mod blend;
 mod equations;
 pub mod params;
 mod pose;
@@ -28,6 +28,7 @@ pub use pose::{Posed, bend_again};
 pub use settle::settle;
 
 /// A straightened surface.
+#[derive(Debug, Clone)]
 pub struct Straightened {
     /// Vertex positions, as near to those of the input as a rigid motion takes them.
     pub positions: Vec<Point>,

@@ -64,6 +64,7 @@ fn real_models_fill_their_pictures() {
                 triangles: &model.triangles,
                 colors: (angle == Angle::Side).then_some(&colors),
                 planes: &[(plane, categorical(0))],
+                ..Scene::default()
             };
             let image = render(&scene, &camera, Background::White);
             let drawn = image.pixels().filter(|p| p.0 != [255; 4]).count();

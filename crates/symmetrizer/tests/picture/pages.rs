@@ -5,8 +5,9 @@ use resvg::usvg;
 use symmetrizer::geom::Vector;
 use symmetrizer::picture::canvas::Text;
 use symmetrizer::picture::{
-    Angle, Canvas, DensityPlot, Exhibit, Extent, Gallery, Panel, PlotMode, ReportPicture, Rod,
-    ScalarField, Sheet, categorical, render_sheet,
+    Angle, Canvas, Cell, Checks, DensityPlot, Exhibit, Extent, Gallery, Panel, PlotMode,
+    ReportPicture, Rod, Row, Rows, ScalarField, Scene, Sheet, Tile, View, categorical,
+    render_sheet,
 };
 use symmetrizer::transform::isometry::Plane;
 
@@ -314,4 +315,103 @@ fn a_gallery_looks_at_each_part_from_its_side() {
         assert!(red > 4000, "{red} pixels of the part at {column}, {row}");
     }
     assert_eq!(red_in(0, 0), red_in(2, 0));
+}
+
+/// A page of one row: `scene` from ahead, with a line.
+fn row(scene: Scene<'_>, line: &[symmetrizer::geom::Point]) -> Canvas {
+    let cell = Cell {
+        caption: "from ahead".into(),
+        scene,
+        view: View::new(-Vector::z(), Vector::y()),
+        line,
+    };
+    let row = Row {
+        name: "pairs".into(),
+        note: vec![
+            ("of a ball".into(), None),
+            ("blue".into(), Some([0, 0, 255])),
+        ],
+        cells: vec![cell.clone(), cell],
+    };
+    let page = Rows {
+        title: "Bend".into(),
+        lines: vec!["none".into()],
+        rows: vec![row],
+    };
+    page.canvas()
+}
+
+#[test]
+fn rows_have_their_pictures_below_another_page() {
+    let ball = sphere(3);
+    let scene = Scene {
+        positions: &ball.positions,
+        triangles: &ball.triangles,
+        ..Scene::default()
+    };
+    let page = row(scene, &ball.positions[..3]);
+    let (below, above) = (page.height(), Canvas::new(300, 70));
+    let both = above.above(page);
+    assert_eq!([both.width(), both.height()], [1800, 70 + below]);
+    let svg = both.to_svg().unwrap();
+    assert_eq!(images(parse(&svg).root()), 2);
+    for words in ["Bend", "pairs", "of a ball", "from ahead"] {
+        assert!(svg.contains(words), "{words}");
+    }
+    assert_eq!(row(Scene::default(), &[]).width(), 1800, "nothing to see");
+}
+
+#[test]
+fn checks_differ_from_square_to_square_and_are_grey_where_nothing_is_known() {
+    let ball = sphere(4);
+    let colors = |places: &dyn Fn(f64, f64) -> [f64; 3]| {
+        let places: Vec<[f64; 3]> = ball.positions.iter().map(|p| places(p.x, p.y)).collect();
+        let scene = Scene {
+            positions: &ball.positions,
+            triangles: &ball.triangles,
+            checks: Some(Checks {
+                places: &places,
+                side: 0.5,
+            }),
+            ..Scene::default()
+        };
+        let image = decode(&row(scene, &[]).to_png().unwrap());
+        // The middle of the first picture, and a little to its sides.
+        let [x, y] = [316, image.height() / 2 + 40];
+        [-20, 20].map(|way: i32| image.get_pixel(x.saturating_add_signed(way), y).0)
+    };
+    let [left, right] = colors(&|x, _| [x / 2.0 + 0.5, 0.1, 1.0]);
+    let [l, r] = [left, right].map(|c| c[..3].iter().map(|c| i32::from(*c)).sum::<i32>());
+    assert!((l - r).abs() > 100, "{left:?} and {right:?}");
+    for place in [[0.5, 0.1, 0.2], [f64::NAN, 0.1, 1.0]] {
+        for c in colors(&|_, _| place) {
+            let even = c[0].abs_diff(c[1]) < 12 && c[1].abs_diff(c[2]) < 12;
+            assert!(even, "{c:?}");
+        }
+    }
+}
+
+#[test]
+fn a_tile_is_seen_where_it_is_and_nowhere_else() {
+    let ball = sphere(4);
+    let at = |x: f64, y: f64| symmetrizer::geom::Point::new(x, y, 0.0);
+    let tile = Tile {
+        corners: [at(1.2, -0.5), at(1.6, -0.5), at(1.6, 0.5), at(1.2, 0.5)],
+        color: [0, 0, 255],
+    };
+    let scene = Scene {
+        positions: &ball.positions,
+        triangles: &ball.triangles,
+        tiles: &[tile],
+        ..Scene::default()
+    };
+    let image = decode(&row(scene, &[]).to_png().unwrap());
+    let blue = |p: &image::Rgba<u8>| p.0[2] > p.0[0].saturating_add(30) && p.0[2] > 200;
+    let page = image.enumerate_pixels().filter(|(_, y, _)| *y > 165);
+    let right: Vec<u32> = page
+        .filter(|(x, _, p)| *x < 600 && blue(p))
+        .map(|(x, _, _)| x)
+        .collect();
+    assert!(right.len() > 1000, "{}", right.len());
+    assert!(right.iter().all(|x| *x > 400), "beside the ball only");
 }
