@@ -62,35 +62,58 @@ pub(super) fn unbend(
         return Ok(nothing);
     };
     let mut report = BendReport::new(&bend);
-    if bend.degrees < params.min_bend || !wanted(report.verdict, params.when) {
-        return Ok(Looked {
-            report: Some(report),
-            bent: Some(Bent {
-                bend,
-                straight: None,
-            }),
-            done: None,
-        });
-    }
-    let straight = ctx.stage("straighten", |_| straighten(&land, &bend))?;
+    let undone = if bend.degrees >= params.min_bend && wanted(report.verdict, params.when) {
+        undone(before, asymmetry, &land, &bend, params.share, settings, ctx)?
+    } else {
+        None
+    };
+    let (straight, done) = undone.map_or((None, None), |undone| {
+        report.removed = params.share * bend.degrees;
+        report.kept = undone.kept;
+        (Some(undone.straight), Some(undone.done))
+    });
+    Ok(Looked {
+        report: Some(report),
+        bent: Some(Bent { bend, straight }),
+        done,
+    })
+}
+
+/// A bend undone.
+struct Undone {
+    straight: Straightened,
+    done: Optimized,
+    /// What stayed of the bend, where not all was to go.
+    kept: Option<KeptReport>,
+}
+
+/// `share` of `bend` undone and the rest made symmetric; `None` where that takes a larger deformation than is
+/// allowed.
+fn undone(
+    before: &Detected,
+    asymmetry: f64,
+    land: &Land<'_>,
+    bend: &Bend,
+    share: f64,
+    settings: Settings<'_>,
+    ctx: &mut Context<'_>,
+) -> Result<Option<Undone>> {
+    let surface = land.surface;
+    let straight = ctx.stage("straighten", |_| straighten(land, bend))?;
     let body = ctx.stage("prepare", |_| prepared(surface, settings))?;
-    let energy = body.energy_at(&straight.positions);
-    if settings
-        .optimize
-        .max_deformation
-        .is_some_and(|most| energy > most)
-    {
+    // It grows with the square of the angle.
+    let energy = share.powi(2) * body.energy_at(&straight.positions);
+    let most = settings.optimize.max_deformation.unwrap_or(f64::INFINITY);
+    if energy > most {
         ctx.warn(format!(
-            "the bend is not undone: that takes a deformation of {energy:.3}, more than is allowed"
+            "the bend is not undone: that takes a deformation energy of {energy:.3}, more than the {most} that \
+             are allowed"
         ));
-        return Ok(Looked {
-            report: Some(report),
-            done: None,
-        });
+        return Ok(None);
     }
     let now = surface.with_positions(straight.positions.clone());
     // What is not sure of the whole is done to the part that it is sure of.
-    let region = (report.verdict == Verdict::Uncertain).then(|| bend.region(&land));
+    let region = (bend.trust.verdict() == Verdict::Uncertain).then(|| bend.region(land));
     let within = Settings {
         region: region.as_deref(),
         ..settings
@@ -104,33 +127,29 @@ pub(super) fn unbend(
             trusted: bend.trust.share,
         },
     );
-    report.removed = params.share * bend.degrees;
-    if let Some(plane) = done.plane.filter(|_| params.share < 1.0) {
-        let symmetric = now.with_positions(done.positions);
+    let mut kept = None;
+    if let Some(plane) = done.plane.filter(|_| share < 1.0) {
+        let symmetric = now.with_positions(std::mem::take(&mut done.positions));
+        let rest = 1.0 - share;
         let posed = ctx.stage("bend again", |_| {
-            let kept = 1.0 - params.share;
-            bend_again(&land, &bend, &straight, (&symmetric, &plane), kept)
+            bend_again(land, bend, &straight, (&symmetric, &plane), rest)
         })?;
         let percent = 100.0 / before.diagonal;
-        report.kept = Some(KeptReport {
-            degrees: bend.degrees - report.removed,
+        let degrees = rest * bend.degrees;
+        kept = Some(KeptReport {
+            degrees,
             across: posed.across * percent,
             line: posed.line * percent,
         });
         done.positions = posed.positions;
-        done.steps.push(Step::Bend {
-            bend: bend.degrees - report.removed,
-        });
+        done.steps.push(Step::Bend { bend: degrees });
     }
     done.energy = body.energy_at(&done.positions);
-    Ok(Looked {
-        report: Some(report),
-        bent: Some(Bent {
-            bend,
-            straight: Some(straight),
-        }),
-        done: Some(done),
-    })
+    Ok(Some(Undone {
+        straight,
+        done,
+        kept,
+    }))
 }
 
 fn wanted(verdict: Verdict, when: When) -> bool {
