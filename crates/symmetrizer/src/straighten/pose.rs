@@ -7,9 +7,11 @@ use rayon::prelude::*;
 
 use crate::deform::poisson::integrate;
 use crate::deform::smooth::SmoothField;
+use crate::deform::solver::{Entries, SolveError};
 use crate::error::{Error, Result};
 use crate::field::grow::Land;
-use crate::geom::{Matrix3, Point, Vector};
+use crate::field::{Partner, SymmetryField};
+use crate::geom::{Matrix3, Point, Vector, nearest_orthogonal};
 use crate::shape::{ClosestPoint, Surface, SurfacePoint};
 use crate::straighten::bend::shared;
 use crate::straighten::blend::Blend;
@@ -22,6 +24,10 @@ const REACH: f64 = 0.01;
 const MIN_COS: f64 = 0.5;
 /// Lengths over which the last moves are smoothed, one after the other, fractions of L.
 const SMOOTH: [f64; 3] = [0.03, 0.015, 0.007];
+
+/// How firmly samples with partners keep their rotations beside an edge between neighbours, and the others.
+const HELD: f64 = 100.0;
+const FREE: f64 = 1e-6;
 
 /// A symmetric shape in its pose.
 pub struct Posed {
@@ -52,7 +58,8 @@ pub fn bend_again(
             .powf(share)
             .into_inner()
     };
-    let back: Vec<Matrix3> = shared(&bend.turns, &bend.field).iter().map(back).collect();
+    let turns = followed(land, &bend.field, &shared(&bend.turns, &bend.field))?;
+    let back: Vec<Matrix3> = turns.iter().map(back).collect();
     let turns = Blend::new(land.surface, land.samples).rotations(&back);
     let bent = integrate(symmetric, &turns, land.stiffness, &[])?;
     let mirror = Isometry::mirror(plane);
@@ -78,6 +85,38 @@ pub fn bend_again(
         across: sides.across(&posed),
         line: sides.line(&posed, land.surface),
         positions: posed.positions,
+    })
+}
+
+/// The rotations of the samples that have partners, and for the rest what goes on evenly from those: by
+/// themselves the two sides of what is not trusted would go different ways.
+fn followed(land: &Land<'_>, field: &SymmetryField, turns: &[Matrix3]) -> Result<Vec<Matrix3>> {
+    let spread = || -> std::result::Result<Vec<Matrix3>, SolveError> {
+        let mut entries = Entries::default();
+        for (i, near) in land.reach.neighbors.iter().enumerate() {
+            for j in near.iter().map(|&j| j as usize).filter(|&j| i > j) {
+                let w = land.firmness([i as u32, j as u32]);
+                entries.add_square(&[(i, 1.0), (j, -1.0)], w);
+            }
+        }
+        let held = |q: &Option<Partner>| if q.is_some() { HELD } else { FREE };
+        let held: Vec<f64> = field.partners.iter().map(held).collect();
+        for (i, w) in held.iter().enumerate() {
+            entries.add(i, i, *w);
+        }
+        let mut matrix = entries.factorized(turns.len())?;
+        let mut sums = vec![Matrix3::zeros(); turns.len()];
+        for k in 0..9 {
+            let mut x: Vec<f64> = turns.iter().zip(&held).map(|(t, w)| t[k] * w).collect();
+            matrix.solve(&mut x)?;
+            sums.iter_mut().zip(&x).for_each(|(s, x)| s[k] = *x);
+        }
+        Ok(sums.iter().map(|s| nearest_orthogonal(s, false)).collect())
+    };
+    spread().map_err(|_| Error::Numerical {
+        stage: "bend again",
+        step: 0,
+        what: "the rotations could not be spread".into(),
     })
 }
 
