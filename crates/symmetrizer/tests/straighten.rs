@@ -9,7 +9,7 @@ use rand_pcg::Pcg64;
 use symmetrizer::detect::{DetectParams, Detection, detect};
 use symmetrizer::field::Reach;
 use symmetrizer::field::grow::Land;
-use symmetrizer::field::trust::Verdict;
+use symmetrizer::field::trust::{Trust, Verdict};
 use symmetrizer::geom::{Matrix3, Point, Vector, nearest_orthogonal};
 use symmetrizer::job::pictures;
 use symmetrizer::shape::SurfacePoint;
@@ -39,13 +39,17 @@ impl Ground {
         }
     }
 
-    fn bend(&self) -> Option<(Bend, Vec<Point>)> {
-        let land = Land::new(
+    fn land(&self) -> Land<'_> {
+        Land::new(
             &self.surface,
             &self.closest,
             &self.found.samples,
             &self.reach,
-        );
+        )
+    }
+
+    fn bend(&self) -> Option<(Bend, Vec<Point>)> {
+        let land = self.land();
         let mirrors: Vec<_> = self.found.symmetries.iter().map(|s| s.q_from_p).collect();
         let bend = Bend::find(&land, &mirrors, &mut Context::new(0)).expect("solvable")?;
         let straight = straighten(&land, &bend).expect("solvable").positions;
@@ -142,6 +146,85 @@ fn blob(seed: u64, bumps: usize, width: f64, height: f64) -> Mesh {
     mesh
 }
 
+/// The mesh turned by `axis` (its length in radians), its box centred and of diagonal 1.
+fn placed(mesh: &Mesh, axis: Vector) -> Mesh {
+    let turn = nalgebra::Rotation3::new(axis);
+    let mut mesh = mesh.clone();
+    mesh.positions.iter_mut().for_each(|p| *p = turn * *p);
+    let diagonal = mesh.diagonal();
+    let mut mesh = deformed(&mesh, 0, |p, _| p);
+    mesh.positions.iter_mut().for_each(|p| *p /= diagonal);
+    mesh
+}
+
+/// What of `a` lies on the positive side of x with what of `b` lies on the negative.
+fn joined(a: &Mesh, b: &Mesh) -> Mesh {
+    let half = |mesh: &Mesh, side: f64, first: usize| {
+        let inside = |t: &[u32; 3]| {
+            t.iter()
+                .map(|&v| side * mesh.positions[v as usize].x)
+                .sum::<f64>()
+                > 0.0
+        };
+        let triangles = mesh.triangles().map(|(t, _)| t).filter(inside);
+        triangles
+            .map(|t| t.map(|v| v + first as u32))
+            .collect::<Vec<_>>()
+    };
+    let mut triangles = half(a, 1.0, 0);
+    triangles.extend(half(b, -1.0, a.positions.len()));
+    let positions = a.positions.iter().chain(&b.positions).copied().collect();
+    Mesh::from_triangles(positions, triangles)
+}
+
+#[test]
+fn halves_of_different_shapes_are_not_taken_for_one() {
+    let names = ["bull.off", "fertility.off", "camel_head.off", "cow.obj"];
+    let names = names.into_iter().chain(["lion_head.off", "homer.obj"]);
+    let paths: Option<Vec<_>> = names.map(|n| model(&format!("3d/{n}"))).collect();
+    let Some(paths) = paths else { return };
+    let shapes: Vec<Mesh> = paths.iter().map(|path| load(path)).collect();
+    for (a, b) in [(0, 1), (2, 3), (4, 1), (5, 3), (0, 5)] {
+        let turned = |k: usize| {
+            let k = k as f64;
+            let axis = Vector::new((3.0 * k).sin(), (5.0 * k + 1.0).sin(), (7.0 * k).cos());
+            placed(&shapes[k as usize], 2.0 * axis)
+        };
+        let bend = Ground::new(&joined(&turned(a), &turned(b))).bend();
+        let trust = bend.map(|(bend, _)| bend.trust);
+        let verdict = trust.as_ref().map(Trust::verdict);
+        let figures = trust.map(|t| (t.score(), t.unfit));
+        println!("{a} and {b}: {verdict:?} {figures:.3?}");
+        assert_ne!(verdict, Some(Verdict::Accept), "{a} and {b}");
+    }
+}
+
+#[test]
+fn of_two_halves_only_the_symmetric_one_is_changed() {
+    let (Some(cow), Some(homer)) = (model("3d/cow.obj"), model("3d/homer.obj")) else {
+        return;
+    };
+    // The front half of the cow, and the left half of homer.
+    let [cow, homer] = [cow, homer].map(|path| placed(&load(&path), Vector::zeros()));
+    let mesh = joined(&cow, &homer);
+    let ground = Ground::new(&mesh);
+    let (bend, _) = ground.bend().expect("a bend");
+    assert_eq!(bend.trust.verdict(), Verdict::Uncertain);
+    let region = bend.region(&ground.land());
+    let origin = working(&mesh).0.document_of_vertex;
+    let mut area = [[0.0; 2]; 2];
+    for (v, share) in region.iter().enumerate() {
+        let half = usize::from(mesh.positions[origin[v] as usize].x < 0.0);
+        let own = ground.surface.vertex_areas[v];
+        area[half][0] += own * share;
+        area[half][1] += own;
+    }
+    let shares = area.map(|[changed, all]| changed / all);
+    println!("{shares:.3?} {:.2}", bend.trust.unfit);
+    assert!(shares[0] > 0.8, "{shares:?}");
+    assert!(shares[1] < 0.1, "{shares:?}");
+}
+
 #[test]
 fn what_is_straight_has_no_bend() {
     let Some(path) = model("truth/spot_exact.obj") else {
@@ -230,6 +313,7 @@ fn a_run_straightens_or_keeps_the_pose() {
     println!("{bend:?} {:?}", result.asymmetry.mean);
     assert_eq!(bend.removed, bend.degrees);
     assert!(result.asymmetry.mean < 0.05, "{}", result.asymmetry.mean);
+    let unbent = result.energy;
 
     params.straighten.share = 0.0;
     let done = symmetrize(&cow, &params, &mut Context::new(0)).expect("done");
@@ -239,6 +323,13 @@ fn a_run_straightens_or_keeps_the_pose() {
     assert_eq!(bend.removed, 0.0);
     assert!(kept.across < 0.1, "{}", kept.across);
     assert!(kept.line < 0.3, "{}", kept.line);
+
+    params.straighten.share = 1.0;
+    params.optimize.max_deformation = Some(0.5 * unbent);
+    let done = symmetrize(&cow, &params, &mut Context::new(0)).expect("done");
+    let bend = done.report.bend.as_ref().expect("a bend");
+    assert_eq!(bend.removed, 0.0, "that takes more than is allowed");
+    assert!(!done.report.warnings.is_empty());
 
     params.set("straighten.when", "\"never\"").expect("known");
     let done = symmetrize(&cow, &params, &mut Context::new(0)).expect("done");

@@ -117,7 +117,7 @@ fn bend(bend: &BendReport, picture: Option<&Path>) -> String {
     let kept = bend.kept.as_ref().map_or_else(String::new, |kept| {
         format!(
             "             {:.0} degrees kept: partners {:.3} % of D from opposite each other across the \
-             bent mirror, middle moved {:.2} %\n",
+             bent mirror, the centre line moved {:.2} %\n",
             kept.degrees, kept.across, kept.line
         )
     });

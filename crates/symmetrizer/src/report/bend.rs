@@ -37,7 +37,8 @@ pub struct KeptReport {
     pub degrees: f64,
     /// How far partners lie from opposite each other across the bent mirror, mean, % of D.
     pub across: f64,
-    /// How far the middle between them lies from where it was in the input, rms, % of D.
+    /// How far the centre line, the middles between partners near it, lies from where it was in the input, rms,
+    /// % of D.
     pub line: f64,
 }
 

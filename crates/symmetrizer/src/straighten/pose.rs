@@ -5,6 +5,7 @@
 
 use rayon::prelude::*;
 
+use crate::deform::elastic::Motion;
 use crate::deform::poisson::integrate;
 use crate::deform::smooth::SmoothField;
 use crate::deform::solver::{Entries, SolveError};
@@ -12,6 +13,7 @@ use crate::error::{Error, Result};
 use crate::field::grow::Land;
 use crate::field::{Partner, SymmetryField};
 use crate::geom::{Matrix3, Point, Vector, nearest_orthogonal};
+use crate::sample::Sample;
 use crate::shape::{ClosestPoint, Surface, SurfacePoint};
 use crate::straighten::bend::shared;
 use crate::straighten::blend::Blend;
@@ -25,9 +27,12 @@ const MIN_COS: f64 = 0.5;
 /// Lengths over which the last moves are smoothed, one after the other, fractions of L.
 const SMOOTH: [f64; 3] = [0.03, 0.015, 0.007];
 
-/// How firmly samples with partners keep their rotations beside an edge between neighbours, and the others.
+/// How firmly samples in the middle keep their rotations beside an edge between neighbours, and those without
+/// a partner.
 const HELD: f64 = 100.0;
 const FREE: f64 = 1e-6;
+/// Half of the distance between partners at which that has fallen to 1/e, fraction of L.
+const MIDDLE: f64 = 0.05;
 
 /// A symmetric shape in its pose.
 pub struct Posed {
@@ -36,7 +41,8 @@ pub struct Posed {
     /// How far partners lie from opposite each other across the mirrors that were bent with the shape, mean,
     /// fraction of L.
     pub across: f64,
-    /// How far the middle between them lies from where it was in the input, rms, fraction of L.
+    /// How far the centre line, the middles between partners near it, lies from where it was in the input, rms,
+    /// fraction of L.
     pub line: f64,
 }
 
@@ -65,7 +71,7 @@ pub fn bend_again(
     let mirror = Isometry::mirror(plane);
     let closest = ClosestPoint::new(symmetric);
     let normals: Vec<Vector> = turns.iter().map(|turn| turn * plane.normal).collect();
-    let sides = Sides {
+    let mut sides = Sides {
         normals,
         partners: (0..symmetric.positions.len())
             .into_par_iter()
@@ -81,15 +87,22 @@ pub fn bend_again(
     for length in SMOOTH {
         posed = sides.opposite(&posed, length)?;
     }
+    let line = Line::of(&sides, symmetric);
+    let over = line.onto(&posed, land.surface);
+    let posed = posed.with_positions(posed.positions.iter().map(|x| over.apply(x)).collect());
+    for normal in &mut sides.normals {
+        *normal = over.rotation * *normal;
+    }
     Ok(Posed {
         across: sides.across(&posed),
-        line: sides.line(&posed, land.surface),
+        line: line.moved(&posed, land.surface),
         positions: posed.positions,
     })
 }
 
-/// The rotations of the samples that have partners, and for the rest what goes on evenly from those: by
-/// themselves the two sides of what is not trusted would go different ways.
+/// The rotations of the samples near the middle, and for the rest what goes on evenly from those: a limb keeps
+/// the form that it has and follows where it sets on. By itself each limb would turn along its length, and the
+/// two sides would no longer be opposite each other.
 fn followed(land: &Land<'_>, field: &SymmetryField, turns: &[Matrix3]) -> Result<Vec<Matrix3>> {
     let spread = || -> std::result::Result<Vec<Matrix3>, SolveError> {
         let mut entries = Entries::default();
@@ -99,8 +112,12 @@ fn followed(land: &Land<'_>, field: &SymmetryField, turns: &[Matrix3]) -> Result
                 entries.add_square(&[(i, 1.0), (j, -1.0)], w);
             }
         }
-        let held = |q: &Option<Partner>| if q.is_some() { HELD } else { FREE };
-        let held: Vec<f64> = field.partners.iter().map(held).collect();
+        let held = |(s, q): (&Sample, &Option<Partner>)| {
+            let away = q.map(|q| (q.position - s.position).norm() / 2.0);
+            FREE + away.map_or(0.0, |away| HELD * (-(away / MIDDLE).powi(2)).exp())
+        };
+        let samples = land.samples.list.iter();
+        let held: Vec<f64> = samples.zip(&field.partners).map(held).collect();
         for (i, w) in held.iter().enumerate() {
             entries.add(i, i, *w);
         }
@@ -168,19 +185,54 @@ impl Sides {
         let weighted = misses.iter().zip(&posed.vertex_areas);
         weighted.map(|(m, a)| m.norm() * a).sum::<f64>() / posed.area()
     }
+}
 
-    /// rms way of the middle between partners from that in `input`, weighted by area.
-    fn line(&self, posed: &Surface, input: &Surface) -> f64 {
-        let middle = |s: &Surface, v: usize, at: &SurfacePoint| {
-            nalgebra::center(&s.positions[v], &s.point(at))
+/// The centre line: the middles between partners, the closer they are the more they count.
+struct Line {
+    /// Vertices, the partner of each, their weights.
+    middles: Vec<(usize, SurfacePoint, f64)>,
+}
+
+impl Line {
+    /// That of a `symmetric` shape.
+    fn of(sides: &Sides, symmetric: &Surface) -> Self {
+        let middle = |(v, at): (usize, &Option<SurfacePoint>)| {
+            let at = (*at)?;
+            let away = (symmetric.point(&at) - symmetric.positions[v]).norm() / 2.0;
+            let weight = symmetric.vertex_areas[v] * (-(away / MIDDLE).powi(2)).exp();
+            Some((v, at, weight))
         };
-        let squares = self.partners.iter().enumerate().map(|(v, at)| {
-            let at = at.as_ref();
-            at.map_or(0.0, |at| {
-                let way = middle(posed, v, at) - middle(input, v, at);
-                posed.vertex_areas[v] * way.norm_squared()
-            })
-        });
-        (squares.sum::<f64>() / posed.area()).sqrt()
+        let partners = sides.partners.iter().enumerate();
+        Self {
+            middles: partners.filter_map(middle).collect(),
+        }
+    }
+
+    /// Where it runs on a state of the shape.
+    fn places(&self, on: &Surface) -> Vec<Point> {
+        let middles = self.middles.iter();
+        middles
+            .map(|(v, at, _)| nalgebra::center(&on.positions[*v], &on.point(at)))
+            .collect()
+    }
+
+    /// The rigid motion that takes the line of `posed` nearest to that of `input`.
+    fn onto(&self, posed: &Surface, input: &Surface) -> Motion {
+        let weights: Vec<f64> = self.middles.iter().map(|m| m.2).collect();
+        if weights.iter().sum::<f64>() > 0.0 {
+            Motion::between(&self.places(posed), &self.places(input), &weights)
+        } else {
+            Motion::rest(Point::origin())
+        }
+    }
+
+    /// The rms way from that in `input`.
+    fn moved(&self, posed: &Surface, input: &Surface) -> f64 {
+        let total: f64 = self.middles.iter().map(|m| m.2).sum();
+        let ways = self.places(posed).into_iter().zip(self.places(input));
+        let squares = ways
+            .zip(&self.middles)
+            .map(|((x, y), m)| m.2 * (x - y).norm_squared());
+        (squares.sum::<f64>() / total.max(f64::MIN_POSITIVE)).sqrt()
     }
 }
