@@ -86,6 +86,7 @@ impl Bunny {
 
     fn settings(&self) -> Settings<'_> {
         Settings {
+            region: None,
             stiffness: None,
             detect: &self.detect,
             deform: &self.deform,

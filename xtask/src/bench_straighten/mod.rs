@@ -1,5 +1,7 @@
 //! How well bent shapes are straightened whose rest is known.
 
+mod time;
+
 use std::time::Instant;
 
 use serde::Deserialize;
@@ -73,6 +75,9 @@ pub fn run(args: &Args) -> Result<Answer> {
         table.row(one(name, args)?);
     }
     terminal::answer(&table.to_string());
+    if args.only.is_none() {
+        terminal::answer(&time::table()?.to_string());
+    }
     Ok(Answer::Done)
 }
 

@@ -126,11 +126,12 @@ fn bend(bend: &BendReport, picture: Option<&Path>) -> String {
         _ => String::new(),
     };
     format!(
-        "bend         {verdict} (score {:.2}: {:.0} % trusted, likeness {:.2}); local mirrors turn by {:.0} \
-         degrees, {:.0} removed\n{kept}{ask}",
+        "bend         {verdict} (score {:.2}: {:.0} % trusted, likeness {:.2}; {:.1} % without a partner that \
+         fits); local mirrors turn by {:.0} degrees, {:.0} removed\n{kept}{ask}",
         bend.score,
         100.0 * bend.trusted,
         bend.likeness,
+        100.0 * bend.unfit,
         bend.degrees,
         bend.removed
     )
@@ -235,6 +236,7 @@ mod tests {
             trusted: 0.6,
             likeness: 0.5,
             relief: 0.4,
+            unfit: 0.1,
             degrees: 34.0,
             removed: 0.0,
             kept: None,
