@@ -31,7 +31,7 @@ const AWAY: f64 = 0.002;
 /// Distance of a pair that does not fit, fraction of L, and the share of samples without a partner that fits
 /// above which a field is not accepted, for it holds for a part at the most ...
 const UNFIT: f64 = 0.003;
-const PARTIAL: f64 = 0.03;
+const PARTIAL: f64 = 0.045;
 /// ... unless it scores as much, as those of shapes do that lack a piece.
 const SURE: f64 = 0.7;
 /// Trusted share of the surroundings of a sample below which it is left alone, and above which it may be
