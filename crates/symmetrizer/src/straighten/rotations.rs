@@ -22,6 +22,8 @@ const LEAST: f64 = 0.15;
 /// Vectors and rounds of the subspace iteration.
 const VECTORS: usize = 5;
 const ROUNDS: usize = 30;
+/// Squared sine of the angle by which the sought vectors turn in a round, below which they are found.
+const TURNED: f64 = 1e-12;
 /// Shift of the eigenproblem, against a singular matrix.
 const SHIFT: f64 = 1e-6;
 
@@ -38,8 +40,8 @@ pub fn solved(land: &Land<'_>, field: &SymmetryField) -> Result<Vec<Matrix3>, Er
 }
 
 fn rotations(land: &Land<'_>, field: &SymmetryField) -> Result<Vec<Matrix3>, SolveError> {
-    let first = rows(land, field, -1.0, 1)?;
-    let others = rows(land, field, 1.0, 2)?;
+    let (first, others) = rayon::join(|| rows(land, field, -1.0, 1), || rows(land, field, 1.0, 2));
+    let (first, others) = (first?, others?);
     let matrix = |i: usize| {
         Matrix3::from_rows(&[
             first[0][i].transpose(),
@@ -85,9 +87,9 @@ fn rows(
     for (i, m) in mass.iter().enumerate() {
         entries.add(i, i, SHIFT * m);
     }
-    let vectors = smallest(entries.factorized(3 * n)?, &mass)?;
+    let vectors = smallest(entries.factorized(3 * n)?, &mass, wanted)?;
     let split = |x: &Vec<f64>| x.chunks_exact(3).map(Vector::from_column_slice).collect();
-    Ok(vectors.iter().take(wanted).map(split).collect())
+    Ok(vectors.iter().map(split).collect())
 }
 
 /// w |rho_i - rho_j|^2 over the edges of the graph of neighbours, 8 for each sample in the mean, more where
@@ -115,8 +117,12 @@ fn add_pair(entries: &mut Entries, p: usize, q: usize, a: &Matrix3, c: f64) {
     }
 }
 
-/// Inverse subspace iteration: the smallest eigenvectors of a matrix against a diagonal mass.
-fn smallest(mut matrix: Factorized, mass: &[f64]) -> Result<Vec<Vec<f64>>, SolveError> {
+/// Inverse subspace iteration: the `wanted` smallest eigenvectors of a matrix against a diagonal mass.
+fn smallest(
+    mut matrix: Factorized,
+    mass: &[f64],
+    wanted: usize,
+) -> Result<Vec<Vec<f64>>, SolveError> {
     // Any start that is not orthogonal to what is sought.
     let start = |k: usize| -> Vec<f64> {
         (0..mass.len())
@@ -125,29 +131,39 @@ fn smallest(mut matrix: Factorized, mass: &[f64]) -> Result<Vec<Vec<f64>>, Solve
     };
     let mut block: Vec<Vec<f64>> = (0..VECTORS).map(start).collect();
     for _ in 0..ROUNDS {
+        let before = block[..wanted].to_vec();
         for x in &mut block {
             x.iter_mut().zip(mass).for_each(|(x, m)| *x *= m);
             matrix.solve(x)?;
         }
         orthonormalize(&mut block, mass);
+        let turned = |x: &Vec<f64>| {
+            let shares = before.iter().map(|y| dot(x, y, mass).powi(2));
+            1.0 - shares.sum::<f64>()
+        };
+        if block[..wanted].iter().all(|x| turned(x) < TURNED) {
+            break;
+        }
     }
+    block.truncate(wanted);
     Ok(block)
+}
+
+fn dot(a: &[f64], b: &[f64], mass: &[f64]) -> f64 {
+    a.iter().zip(b).zip(mass).map(|((a, b), m)| a * b * m).sum()
 }
 
 /// Gram and Schmidt against the mass, the largest first: inverse iteration has grown the smallest
 /// eigenvector most.
 fn orthonormalize(block: &mut [Vec<f64>], mass: &[f64]) {
-    let dot = |a: &[f64], b: &[f64]| -> f64 {
-        a.iter().zip(b).zip(mass).map(|((a, b), m)| a * b * m).sum()
-    };
     for k in 0..block.len() {
         let (done, rest) = block.split_at_mut(k);
         let x = &mut rest[0];
         for y in done.iter() {
-            let along = dot(x, y);
+            let along = dot(x, y, mass);
             x.iter_mut().zip(y).for_each(|(x, y)| *x -= along * y);
         }
-        let norm = dot(x, x).sqrt().max(f64::MIN_POSITIVE);
+        let norm = dot(x, x, mass).sqrt().max(f64::MIN_POSITIVE);
         x.iter_mut().for_each(|x| *x /= norm);
     }
 }

@@ -39,7 +39,7 @@ const MIN_COS: f64 = 0.5;
 const ROUNDS: u32 = 30;
 const FALLS: f64 = 0.7;
 /// Settled where the images move less in the mean, fraction of L.
-const SETTLED: f64 = 2e-5;
+const SETTLED: f64 = 1e-4;
 /// Radius of the local isometries at the end, fraction of L.
 const RADIUS: f64 = 0.045;
 
