@@ -1,0 +1,164 @@
+//! A document deformed: paths bent, gradients turned along, texts and images moved.
+
+use std::collections::BTreeMap;
+
+use kurbo::{Affine, Point, Rect, Vec2};
+use roxmltree::Document;
+
+use super::edit::Edit;
+use super::scene::{Piece, Role, Scene, Spot, Whole, node};
+use super::units::{matrix, transform};
+use super::{motion, silhouette};
+use crate::drawing::path::bend::Bending;
+use crate::drawing::path::write;
+use crate::error::{Error, Result};
+
+/// Of the drawing's diagonal: how near curves lie to the deformed ones.
+const TOLERANCE: f64 = 1e-4;
+
+/// Of the diagonal: coordinates are written this exactly. A drawing of 512 units has three decimals.
+const PRECISION: f64 = 1e-5;
+
+/// Of the diagonal: what moves less than this has not moved.
+const STILL: f64 = 1e-9;
+
+/// Of the diagonal: half the width over which a map is differentiated. A map that is linear on
+/// pieces is averaged over them.
+const STEP: f64 = 1e-4;
+
+type Map<'a> = &'a dyn Fn(Point) -> Point;
+
+/// The changes of a document whose drawing, of this size, is deformed.
+///
+/// # Errors
+/// [`Error::Numerical`] where the map leads to points that are no numbers.
+pub(super) fn edits(
+    tree: &Document<'_>,
+    scene: &Scene,
+    diagonal: f64,
+    map: Map<'_>,
+) -> Result<BTreeMap<Spot, Edit>> {
+    let bending = Bending {
+        map,
+        tolerance: TOLERANCE * diagonal,
+        step: STEP * diagonal,
+    };
+    let mut edits = BTreeMap::new();
+    let moving = |p: &&Piece| p.role != Role::Background;
+    for (number, piece) in scene.pieces.iter().enumerate().filter(|(_, p)| moving(p)) {
+        let placed = piece.path.transformed(piece.place);
+        let Some(bent) = bending.path(&placed, STILL * diagonal) else {
+            continue;
+        };
+        if !bent.control_points().all(Point::is_finite) {
+            return Err(Error::Numerical {
+                stage: "drawing",
+                step: number,
+                what: "the deformation leads to points that are no numbers".into(),
+            });
+        }
+        if let Some(back) = inverse(piece.place) {
+            let decimals = decimals(piece.place, diagonal);
+            let data = write::data(&bent.transformed(back), decimals);
+            edits.insert(piece.spot.clone(), Edit::Data(data));
+        }
+    }
+    for whole in &scene.wholes {
+        edits.extend(moved(whole, diagonal, map));
+    }
+    for number in 0..scene.paints.len() {
+        edits.extend(turned(tree, scene, number, diagonal, map));
+    }
+    Ok(edits)
+}
+
+/// `None` where an element is squeezed into a line.
+fn inverse(place: Affine) -> Option<Affine> {
+    let back = place.inverse();
+    back.is_finite().then_some(back)
+}
+
+/// How many decimals an element needs in its own coordinates.
+fn decimals(place: Affine, diagonal: f64) -> u32 {
+    let scale = place.determinant().abs().sqrt();
+    write::decimals(PRECISION * diagonal / scale)
+}
+
+/// An element that moves as a whole: as the plane does at its centre.
+fn moved(whole: &Whole, diagonal: f64, map: Map<'_>) -> Option<(Spot, Edit)> {
+    let motion = motion::rigid(map, whole.centre, STEP * diagonal)?;
+    if (motion * whole.centre).distance(map(whole.centre)) > diagonal
+        || rests(&motion, whole.centre, diagonal)
+    {
+        return None;
+    }
+    let own = inverse(whole.around)? * motion * whole.around * whole.own;
+    let value = matrix(own, decimals(whole.around, diagonal) + 1);
+    Some((whole.spot.clone(), Edit::Attribute("transform", value)))
+}
+
+fn rests(motion: &Affine, centre: Point, diagonal: f64) -> bool {
+    let ends = [Vec2::new(diagonal, 0.0), Vec2::new(0.0, diagonal), Vec2::ZERO];
+    let shift = |v: Vec2| (*motion * (centre + v)).distance(centre + v);
+    ends.into_iter().map(shift).fold(0.0, f64::max) <= STILL.sqrt() * diagonal
+}
+
+/// A gradient or pattern in user units, turned by the affine map that best fits what the paths do
+/// that it paints.
+fn turned(
+    tree: &Document<'_>,
+    scene: &Scene,
+    number: usize,
+    diagonal: f64,
+    map: Map<'_>,
+) -> Option<(Spot, Edit)> {
+    let paint = &scene.paints[number];
+    let element = node(tree, paint.node)?;
+    let (units, attribute) = match element.tag_name().name() {
+        "linearGradient" | "radialGradient" => ("gradientUnits", "gradientTransform"),
+        "pattern" => ("patternUnits", "patternTransform"),
+        _ => return None,
+    };
+    if inherited(tree, paint.node, units)? != "userSpaceOnUse" {
+        return None;
+    }
+    let painted = scene.pieces.iter().filter(|p| p.paints.contains(&number));
+    let points: Vec<Point> = painted
+        .flat_map(|p| p.path.control_points().map(|c| p.place * c))
+        .collect();
+    let fit = motion::affine(map, &points)?;
+    let around = points.iter().copied().fold(Rect::from_points(points[0], points[0]), |r, p| r.union_pt(p));
+    if rests(&fit, around.center(), diagonal) {
+        return None;
+    }
+    let before = inherited(tree, paint.node, attribute);
+    let own = before.as_deref().and_then(transform).unwrap_or(Affine::IDENTITY);
+    let place = paint.place;
+    let value = matrix(inverse(place)? * fit * place * own, decimals(place, diagonal) + 1);
+    let spot = Spot {
+        chain: Vec::new(),
+        node: paint.node,
+    };
+    Some((spot, Edit::Attribute(attribute, value)))
+}
+
+/// An attribute of a gradient or of the one it refers to; the default of the units is none.
+fn inherited(tree: &Document<'_>, first: u32, name: &str) -> Option<String> {
+    let mut element = node(tree, first)?;
+    // A chain that comes back to itself ends here.
+    for _ in 0..16 {
+        if let Some(value) = element.attribute(name) {
+            return Some(value.to_owned());
+        }
+        let id = super::scene::referenced(element)?;
+        element = tree.descendants().find(|n| n.attribute("id") == Some(id))?;
+    }
+    None
+}
+
+/// The diagonal of all paths.
+pub(super) fn diagonal(scene: &Scene) -> f64 {
+    let seen = scene.pieces.iter().filter(|p| !matches!(p.role, Role::Clip(_)));
+    let boxes = seen.filter_map(|p| silhouette::box_of(&p.path, p.place));
+    boxes.reduce(|a, b| a.union(b)).map_or(0.0, |b| b.width().hypot(b.height()))
+}
