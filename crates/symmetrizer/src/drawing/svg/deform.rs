@@ -1,14 +1,12 @@
 //! A document deformed: paths bent, gradients turned along, texts and images moved.
 
-use std::collections::BTreeMap;
-
 use kurbo::{Affine, Point, Rect, Vec2};
 use roxmltree::Document;
 
-use super::edit::Edit;
+use super::edit::{Edit, Edits};
 use super::scene::{Piece, Role, Scene, Spot, Whole, node};
 use super::units::{matrix, transform};
-use super::{motion, silhouette};
+use super::{motion, silhouette, viewport};
 use crate::drawing::path::bend::Bending;
 use crate::drawing::path::write;
 use crate::error::{Error, Result};
@@ -37,14 +35,15 @@ pub(super) fn edits(
     scene: &Scene,
     diagonal: f64,
     map: Map<'_>,
-) -> Result<BTreeMap<Spot, Edit>> {
+) -> Result<Edits> {
     let bending = Bending {
         map,
         tolerance: TOLERANCE * diagonal,
         step: STEP * diagonal,
     };
-    let mut edits = BTreeMap::new();
+    let mut edits = Edits::new();
     let moving = |p: &&Piece| p.role != Role::Background;
+    let mut around: Option<Rect> = None;
     for (number, piece) in scene.pieces.iter().enumerate().filter(|(_, p)| moving(p)) {
         let placed = piece.path.transformed(piece.place);
         let Some(bent) = bending.path(&placed, STILL * diagonal) else {
@@ -57,10 +56,14 @@ pub(super) fn edits(
                 what: "the deformation leads to points that are no numbers".into(),
             });
         }
+        if matches!(piece.role, Role::Filled(_) | Role::Stroked) {
+            let bounds = silhouette::box_of(&bent, Affine::IDENTITY);
+            around = around.into_iter().chain(bounds).reduce(|a, b| a.union(b));
+        }
         if let Some(back) = inverse(piece.place) {
             let decimals = decimals(piece.place, diagonal);
             let data = write::data(&bent.transformed(back), decimals);
-            edits.insert(piece.spot.clone(), Edit::Data(data));
+            edits.insert(piece.spot.clone(), vec![Edit::Data(data)]);
         }
     }
     for whole in &scene.wholes {
@@ -68,6 +71,10 @@ pub(super) fn edits(
     }
     for number in 0..scene.paints.len() {
         edits.extend(turned(tree, scene, number, diagonal, map));
+    }
+    if let Some(around) = around {
+        let before = seen(scene);
+        edits.extend(viewport::widened(tree, before, around, PRECISION * diagonal));
     }
     Ok(edits)
 }
@@ -85,7 +92,7 @@ fn decimals(place: Affine, diagonal: f64) -> u32 {
 }
 
 /// An element that moves as a whole: as the plane does at its centre.
-fn moved(whole: &Whole, diagonal: f64, map: Map<'_>) -> Option<(Spot, Edit)> {
+fn moved(whole: &Whole, diagonal: f64, map: Map<'_>) -> Option<(Spot, Vec<Edit>)> {
     let motion = motion::rigid(map, whole.centre, STEP * diagonal)?;
     if (motion * whole.centre).distance(map(whole.centre)) > diagonal
         || rests(&motion, whole.centre, diagonal)
@@ -94,7 +101,7 @@ fn moved(whole: &Whole, diagonal: f64, map: Map<'_>) -> Option<(Spot, Edit)> {
     }
     let own = inverse(whole.around)? * motion * whole.around * whole.own;
     let value = matrix(own, decimals(whole.around, diagonal) + 1);
-    Some((whole.spot.clone(), Edit::Attribute("transform", value)))
+    Some((whole.spot.clone(), vec![Edit::Attribute("transform", value)]))
 }
 
 fn rests(motion: &Affine, centre: Point, diagonal: f64) -> bool {
@@ -111,7 +118,7 @@ fn turned(
     number: usize,
     diagonal: f64,
     map: Map<'_>,
-) -> Option<(Spot, Edit)> {
+) -> Option<(Spot, Vec<Edit>)> {
     let paint = &scene.paints[number];
     let element = node(tree, paint.node)?;
     let (units, attribute) = match element.tag_name().name() {
@@ -139,7 +146,7 @@ fn turned(
         chain: Vec::new(),
         node: paint.node,
     };
-    Some((spot, Edit::Attribute(attribute, value)))
+    Some((spot, vec![Edit::Attribute(attribute, value)]))
 }
 
 /// An attribute of a gradient or of the one it refers to; the default of the units is none.
@@ -156,7 +163,14 @@ fn inherited(tree: &Document<'_>, first: u32, name: &str) -> Option<String> {
     None
 }
 
-/// The diagonal of all paths.
+/// The box around the paths that are seen.
+fn seen(scene: &Scene) -> Rect {
+    let seen = scene.pieces.iter().filter(|p| matches!(p.role, Role::Filled(_) | Role::Stroked));
+    let boxes = seen.filter_map(|p| silhouette::box_of(&p.path, p.place));
+    boxes.reduce(|a, b| a.union(b)).unwrap_or_default()
+}
+
+/// The diagonal of all paths, drawing units.
 pub(super) fn diagonal(scene: &Scene) -> f64 {
     let seen = scene.pieces.iter().filter(|p| !matches!(p.role, Role::Clip(_)));
     let boxes = seen.filter_map(|p| silhouette::box_of(&p.path, p.place));

@@ -8,6 +8,9 @@ use roxmltree::{Document, Node};
 use super::scene::{Spot, node, referenced};
 use super::shapes;
 
+/// What changes in which elements.
+pub(super) type Edits = BTreeMap<Spot, Vec<Edit>>;
+
 /// What changes in an element.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Edit {
@@ -27,7 +30,7 @@ const REMADE: [&str; 5] = [
 ];
 
 /// The whole text, edited.
-pub(super) fn edited(text: &str, tree: &Document<'_>, edits: &BTreeMap<Spot, Edit>) -> String {
+pub(super) fn edited(text: &str, tree: &Document<'_>, edits: &Edits) -> String {
     if edits.is_empty() {
         return text.to_owned();
     }
@@ -43,7 +46,7 @@ type Splice = (Range<usize>, String);
 struct Editor<'a, 'input> {
     text: &'a str,
     tree: &'a Document<'input>,
-    edits: &'a BTreeMap<Spot, Edit>,
+    edits: &'a Edits,
 }
 
 impl Editor<'_, '_> {
@@ -64,7 +67,7 @@ impl Editor<'_, '_> {
                 if copy {
                     splices.extend(attribute(element, "id").map(|r| (r, String::new())));
                 }
-                if let Some(edit) = self.edits.get(&spot) {
+                for edit in self.edits.get(&spot).into_iter().flatten() {
                     self.change(element, edit, splices);
                 }
             }
