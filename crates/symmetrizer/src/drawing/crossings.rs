@@ -49,7 +49,10 @@ fn overlaps(edges: &[Edge]) -> Option<usize> {
     let ends = || edges.iter().flat_map(|e| [e.0, e.1]);
     let low = [ends().map(|p| p.x).min()?, ends().map(|p| p.y).min()?];
     let high = [ends().map(|p| p.x).max()?, ends().map(|p| p.y).max()?];
-    let size = (0..2).map(|i| i64::from(high[i]) - i64::from(low[i])).max()? + 1;
+    let size = (0..2)
+        .map(|i| i64::from(high[i]) - i64::from(low[i]))
+        .max()?
+        + 1;
     let cell = |v: i32, axis: usize| {
         ((i64::from(v) - i64::from(low[axis])) as f64 * side / size as f64) as usize
     };
@@ -84,6 +87,7 @@ fn overlaps(edges: &[Edge]) -> Option<usize> {
 }
 
 fn boxes_overlap(a: &Edge, b: &Edge) -> bool {
-    let apart = |a0: i32, a1: i32, b0: i32, b1: i32| a0.max(a1) < b0.min(b1) || b0.max(b1) < a0.min(a1);
+    let apart =
+        |a0: i32, a1: i32, b0: i32, b1: i32| a0.max(a1) < b0.min(b1) || b0.max(b1) < a0.min(a1);
     !apart(a.0.x, a.1.x, b.0.x, b.1.x) && !apart(a.0.y, a.1.y, b.0.y, b.1.y)
 }

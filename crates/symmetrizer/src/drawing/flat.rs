@@ -44,7 +44,11 @@ fn plane(positions: &[Point]) -> Result<Matrix3> {
     let mean = positions.iter().map(|p| p.coords).sum::<Vector>() / count;
     let offsets = positions.iter().map(|p| p.coords - mean);
     let size = offsets.clone().map(|d| d.norm()).fold(0.0, f64::max);
-    let flat = |normal: &Vector| offsets.clone().all(|d| d.dot(normal).abs() <= THICKNESS * size);
+    let flat = |normal: &Vector| {
+        offsets
+            .clone()
+            .all(|d| d.dot(normal).abs() <= THICKNESS * size)
+    };
     if flat(&Vector::z()) {
         return Ok(Matrix3::identity());
     }
@@ -52,7 +56,10 @@ fn plane(positions: &[Point]) -> Result<Matrix3> {
     let normal: Vector = axes.column(0).into();
     if !(size > 0.0 && flat(&normal)) {
         let what = "the mesh is not flat";
-        return Err(Error::input(what, "as a drawing a mesh must lie in a plane"));
+        return Err(Error::input(
+            what,
+            "as a drawing a mesh must lie in a plane",
+        ));
     }
     let normal = if normal.z < 0.0 { -normal } else { normal };
     let turn = nalgebra::Rotation3::rotation_between(&normal, &Vector::z());

@@ -55,13 +55,17 @@ fn subpath(ring: &Ring, manner: Manner) -> Subpath {
     let mut drawn = Subpath::new(points.first().copied().unwrap_or_default());
     match manner {
         Manner::Polygons => {
-            let lines = points.windows(2).map(|w| PathSeg::Line(Line::new(w[0], w[1])));
+            let lines = points
+                .windows(2)
+                .map(|w| PathSeg::Line(Line::new(w[0], w[1])));
             drawn.segments.extend(lines);
         }
         Manner::Curves { tolerance, reach } => {
             let curves = Tracer { tolerance, reach }.ring(points);
             drawn.start = curves.first().map_or(drawn.start, |c| c.p0);
-            drawn.segments.extend(curves.into_iter().map(PathSeg::Cubic));
+            drawn
+                .segments
+                .extend(curves.into_iter().map(PathSeg::Cubic));
         }
     }
     drawn.close();
@@ -100,7 +104,8 @@ impl Tracer {
         let count = points.len();
         let sharpest = |&i: &usize| {
             let mut far = 0.0;
-            let beaten = |j: usize, earlier: bool| turns[j] > turns[i] || (earlier && turns[j] == turns[i]);
+            let beaten =
+                |j: usize, earlier: bool| turns[j] > turns[i] || (earlier && turns[j] == turns[i]);
             for k in 1..count / 2 {
                 let (before, after) = ((i + count - k) % count, (i + k) % count);
                 far += points[after].distance(points[(after + count - 1) % count]);
@@ -113,7 +118,10 @@ impl Tracer {
             }
             true
         };
-        (0..count).filter(|&i| turns[i] > CORNER).filter(sharpest).collect()
+        (0..count)
+            .filter(|&i| turns[i] > CORNER)
+            .filter(sharpest)
+            .collect()
     }
 
     /// The angle between the ways to a point and from it, over the reach.
@@ -163,7 +171,9 @@ impl Tracer {
             let mut gap = (to - from) / 2;
             while gap > 0 {
                 let end = (to + gap).min(last);
-                if end > to && let Some(curve) = self.fitted(points, from, end, round) {
+                if end > to
+                    && let Some(curve) = self.fitted(points, from, end, round)
+                {
                     (best, to) = (Some(curve), end);
                 }
                 gap /= 2;
@@ -217,6 +227,10 @@ impl Tracer {
             (span(i, false), span(i, true))
         };
         let along = after - before;
-        if along.hypot() > 0.0 { along.normalize() } else { Vec2::ZERO }
+        if along.hypot() > 0.0 {
+            along.normalize()
+        } else {
+            Vec2::ZERO
+        }
     }
 }

@@ -28,13 +28,11 @@ use crate::shape::io as shapes;
 pub use format::Format;
 pub use outline::{Outline, Ring, Source};
 
-/// Pixels, how near curves follow the steps of a bitmap's outline.
-const TRACE: f64 = 0.2;
-
 /// Pixels, over which a bitmap's corners are told from its steps.
 const REACH: f64 = 3.0;
 
-/// Of the diagonal: the least of both tolerances for large bitmaps.
+/// Of the diagonal: how near bent outlines lie to their true image; in large bitmaps also how near
+/// curves lie to the outline.
 const FINE: f64 = 1e-4;
 
 /// Pixels of the longer side of a written picture.
@@ -60,7 +58,8 @@ pub struct Drawing {
 #[derive(Debug, Clone)]
 enum Kept {
     Svg(svg::Svg),
-    Bitmap,
+    /// With how near curves may follow its outline, pixels.
+    Bitmap(f64),
     Rings,
     Flat(Box<flat::Flat>),
 }
@@ -96,7 +95,7 @@ pub fn decode(bytes: Vec<u8>, format: Format, reading: &Reading) -> Result<Drawi
         }
         format @ (Format::Png | Format::Jpeg) => {
             let read = bitmap::read(&bytes, format, reading.threshold)?;
-            (read.outline, Kept::Bitmap, read.warnings)
+            (read.outline, Kept::Bitmap(read.grain), read.warnings)
         }
         Format::Json => (rings::read(&bytes)?, Kept::Rings, Vec::new()),
         Format::Obj => {
@@ -138,7 +137,11 @@ impl Drawing {
             Kept::Flat(flat) => Kept::Flat(Box::new(flat.deformed(map)?)),
             other => other.clone(),
         };
-        let outline = self.outline.mapped(map);
+        let outline = match self.kept {
+            // The edges of a mesh stay edges.
+            Kept::Flat(_) => self.outline.mapped(map),
+            _ => self.outline.bent(map, FINE * self.outline.diagonal()),
+        };
         if let Some(ring) = outline.rings.iter().position(|r| !r.area().is_finite()) {
             return Err(Error::Numerical {
                 stage: "drawing",
@@ -158,8 +161,8 @@ impl Drawing {
     pub fn svg(&self) -> String {
         let manner = match &self.kept {
             Kept::Svg(svg) => return svg.text().to_owned(),
-            Kept::Bitmap => fresh::Manner::Curves {
-                tolerance: TRACE.max(FINE * self.outline.diagonal()),
+            Kept::Bitmap(grain) => fresh::Manner::Curves {
+                tolerance: grain.max(FINE * self.outline.diagonal()),
                 reach: REACH,
             },
             Kept::Rings | Kept::Flat(_) => fresh::Manner::Polygons,

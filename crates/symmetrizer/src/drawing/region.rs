@@ -66,7 +66,12 @@ impl Regions {
             Rule::EvenOdd => FillRule::EvenOdd,
             Rule::NonZero => FillRule::NonZero,
         };
-        Ok(overlay(&contours, &Contours::new(), OverlayRule::Subject, rule))
+        Ok(overlay(
+            &contours,
+            &Contours::new(),
+            OverlayRule::Subject,
+            rule,
+        ))
     }
 
     /// Keeps the points of a loop, those that are known already as they are.

@@ -27,7 +27,11 @@ pub(super) fn png(svg: &str, longer: u32) -> Result<Vec<u8>> {
     let mut page = Pixmap::new(pixels(size.width()), pixels(size.height()))
         .ok_or_else(|| fail("its size is out of range".into()))?;
     page.fill(Color::WHITE);
-    resvg::render(&tree, Transform::from_scale(scale, scale), &mut page.as_mut());
+    resvg::render(
+        &tree,
+        Transform::from_scale(scale, scale),
+        &mut page.as_mut(),
+    );
     page.encode_png().map_err(|e| fail(e.to_string()))
 }
 

@@ -22,11 +22,18 @@ pub(super) fn read(bytes: &[u8]) -> Result<Outline> {
     let file: Rings =
         serde_json::from_slice(bytes).map_err(|e| Error::input(format!("JSON: {e}"), FORM))?;
     if let Some(i) = file.rings.iter().position(|r| r.len() < 3) {
-        let what = format!("ring {i} (counted from 0) has {} points", file.rings[i].len());
+        let what = format!(
+            "ring {i} (counted from 0) has {} points",
+            file.rings[i].len()
+        );
         return Err(Error::input(what, "a ring needs at least three"));
     }
     let point = |p: &[f64; 2]| Point::new(p[0], p[1], 0.0);
-    let rings: Vec<Vec<Point>> = file.rings.iter().map(|r| r.iter().map(point).collect()).collect();
+    let rings: Vec<Vec<Point>> = file
+        .rings
+        .iter()
+        .map(|r| r.iter().map(point).collect())
+        .collect();
     let outline = region::of_rings(&rings)?;
     if outline.is_empty() {
         let what = format!("{} rings without any area", rings.len());

@@ -33,7 +33,14 @@ fn what_is_no_drawing_is_named() {
 
 #[test]
 fn drawings_without_a_region_are_refused() {
-    for content in ["", "<g/>", "<path d=''/>", "<path/>", "<text>a</text>", "<rect width='0' height='5'/>"] {
+    for content in [
+        "",
+        "<g/>",
+        "<path d=''/>",
+        "<path/>",
+        "<text>a</text>",
+        "<rect width='0' height='5'/>",
+    ] {
         fails(&page(content), "no paths");
     }
     for content in [
@@ -49,19 +56,35 @@ fn drawings_without_a_region_are_refused() {
 
 #[test]
 fn coordinates_out_of_range_are_refused() {
-    fails(&page("<path d='M0 0H1e30V1e30Z'/>"), "coordinates of 1e9 or more");
-    fails(&page("<path d='M0 0H1e300V1e308Z'/>"), "coordinates of 1e9 or more");
-    fails(&page("<g transform='scale(1e200)'><path transform='scale(1e200)' d='M0 0H1V1Z'/></g>"), "coordinates");
+    fails(
+        &page("<path d='M0 0H1e30V1e30Z'/>"),
+        "coordinates of 1e9 or more",
+    );
+    fails(
+        &page("<path d='M0 0H1e300V1e308Z'/>"),
+        "coordinates of 1e9 or more",
+    );
+    fails(
+        &page("<g transform='scale(1e200)'><path transform='scale(1e200)' d='M0 0H1V1Z'/></g>"),
+        "coordinates",
+    );
     fails(&page("<path d='M1e8 1e8h1e-3v1e-3z'/>"), "within");
     fails(&page("<path d='M5 5L5 5Z'/>"), "within");
-    fails(&page("<path transform='scale(0)' d='M5 5h1v1z'/>"), "within");
+    fails(
+        &page("<path transform='scale(0)' d='M5 5h1v1z'/>"),
+        "within",
+    );
 }
 
 #[test]
 fn damaged_path_data_counts_up_to_the_damage() {
     let drawing = elements("<path id='p' d='M0 0H10V10H0Z M 20 20 L 30 x'/>");
     assert_eq!(drawing.outline().area(), 100.0);
-    assert!(warnings(&drawing).contains("<path id=\"p\"> in line 1"), "{}", warnings(&drawing));
+    assert!(
+        warnings(&drawing).contains("<path id=\"p\"> in line 1"),
+        "{}",
+        warnings(&drawing)
+    );
     fails(&page("<path d='L 5 5'/>"), "no paths");
 }
 
@@ -75,7 +98,8 @@ fn open_and_crossing_paths_follow_the_fill_rule() {
 
 #[test]
 fn bombs_do_not_go_off() {
-    let laughs = "<!DOCTYPE svg [<!ENTITY a 'ha'><!ENTITY b '&a;&a;&a;'>]><svg><title>&b;</title></svg>";
+    let laughs =
+        "<!DOCTYPE svg [<!ENTITY a 'ha'><!ENTITY b '&a;&a;&a;'>]><svg><title>&b;</title></svg>";
     fails(laughs, "an entity of its DOCTYPE");
     let quadratic = format!(
         "<!DOCTYPE svg [<!ENTITY a '{}'>]><svg><title>{}</title></svg>",
@@ -97,7 +121,11 @@ fn uses_of_uses_are_counted() {
     let mut content = String::from("<g id='u0'><rect width='5' height='5'/></g>");
     for i in 1..30 {
         let below = i - 1;
-        write!(content, "<g id='u{i}'><use href='#u{below}'/><use href='#u{below}'/></g>").unwrap();
+        write!(
+            content,
+            "<g id='u{i}'><use href='#u{below}'/><use href='#u{below}'/></g>"
+        )
+        .unwrap();
     }
     fails(&page(&content), "elements are drawn, counting every use");
     // Rings of uses end where they began.
@@ -108,7 +136,9 @@ fn uses_of_uses_are_counted() {
     assert_eq!(elements(clips).outline().area(), 25.0);
     let gradients = "<linearGradient id='g' href='#g'/><rect fill='url(#g)' width='5' height='5'/>";
     let drawing = elements(gradients);
-    drawing.deformed(&|p| p + symmetrizer::geom::Vector::x()).unwrap();
+    drawing
+        .deformed(&|p| p + symmetrizer::geom::Vector::x())
+        .unwrap();
 }
 
 #[test]
@@ -116,16 +146,24 @@ fn scribbles_are_refused_before_they_take_hours() {
     let mut data = String::from("M0 0");
     let mut seed = 1_u64;
     for _ in 0..60_000 {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        seed = seed
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         write!(data, "L{} {}", (seed >> 40) % 1000, (seed >> 50) % 1000).unwrap();
     }
-    fails(&page(&format!("<path d='{data}'/>")), "cross each other too often");
+    fails(
+        &page(&format!("<path d='{data}'/>")),
+        "cross each other too often",
+    );
 }
 
 #[test]
 fn style_sheets_have_limits() {
     let rules: String = (0..5000).fold(String::new(), |all, i| all + &format!(".c{i}{{fill:red}}"));
-    let content = format!("<style>{rules}</style>{}", "<rect width='1' height='1'/>".repeat(5000));
+    let content = format!(
+        "<style>{rules}</style>{}",
+        "<rect width='1' height='1'/>".repeat(5000)
+    );
     fails(&page(&content), "style rules");
 }
 
@@ -154,10 +192,16 @@ fn bad_rings_are_named() {
     for (json, part) in [
         ("{", "JSON"),
         ("[]", "JSON"),
-        ("{\"rings\": [[[0,0],[1,1]]]}", "ring 0 (counted from 0) has 2 points"),
+        (
+            "{\"rings\": [[[0,0],[1,1]]]}",
+            "ring 0 (counted from 0) has 2 points",
+        ),
         ("{\"rings\": [[[0,0],[1,1],[2,2]]]}", "without any area"),
         ("{\"rings\": []}", "without any area"),
-        ("{\"rings\": [[[0,0],[1e300,1],[2,2]]]}", "coordinates of 1e9 or more"),
+        (
+            "{\"rings\": [[[0,0],[1e300,1],[2,2]]]}",
+            "coordinates of 1e9 or more",
+        ),
         ("{\"rings\": [[[0,0,0],[1,1,1],[2,2,2]]]}", "JSON"),
         ("{\"rings\": [[[0,0],[1,null],[2,2]]]}", "JSON"),
     ] {
@@ -180,9 +224,16 @@ fn damaged_pictures_are_named() {
 /// Whatever is done to a good file, it is read or refused.
 #[test]
 fn damaged_copies_of_real_drawings_are_read_or_refused() {
-    let files = ["2d/hand_print_right.svg", "2d/gecko_gi.svg", "2d/sea_snake.png", "2d/woody_flat_mesh.obj"];
+    let files = [
+        "2d/hand_print_right.svg",
+        "2d/gecko_gi.svg",
+        "2d/sea_snake.png",
+        "2d/woody_flat_mesh.obj",
+    ];
     for name in files {
-        let Some(path) = common::data(name) else { return };
+        let Some(path) = common::data(name) else {
+            return;
+        };
         let format = Format::of_path(&path).unwrap();
         let good = std::fs::read(&path).unwrap();
         for i in 0..200_usize {
@@ -195,7 +246,8 @@ fn damaged_copies_of_real_drawings_are_read_or_refused() {
                 _ => bytes[at] = b"<>\"-.eM/"[i / 4 % 8],
             }
             if let Ok(drawing) = drawing::decode(bytes, format, &Reading::default()) {
-                let bent = drawing.deformed(&|p| symmetrizer::geom::Point::new(p.x + 0.1 * p.y, p.y, 0.0));
+                let bent =
+                    drawing.deformed(&|p| symmetrizer::geom::Point::new(p.x + 0.1 * p.y, p.y, 0.0));
                 assert!(bent.unwrap().outline().area() > 0.0, "{name} {i}");
             }
         }

@@ -6,14 +6,20 @@ use symmetrizer::geom::{Point, Vector};
 use crate::common;
 use crate::shared::{apart, decoded, failure, read};
 
-const FRAME: &str = "{\"name\": \"frame\", \"rings\": [[[0,0],[4,0],[4,4],[0,4]],[[1,1],[1,3],[3,3],[3,1]]]}";
+const FRAME: &str =
+    "{\"name\": \"frame\", \"rings\": [[[0,0],[4,0],[4,4],[0,4]],[[1,1],[1,3],[3,3],[3,1]]]}";
 
 #[test]
 fn rings_are_read_and_written() {
     let frame = decoded(FRAME.as_bytes(), Format::Json);
     assert_eq!(frame.outline().area(), 12.0);
     // By ring and point.
-    let hole = frame.outline().rings.iter().find(|r| r.area() < 0.0).unwrap();
+    let hole = frame
+        .outline()
+        .rings
+        .iter()
+        .find(|r| r.area() < 0.0)
+        .unwrap();
     assert!(hole.sources.iter().all(|s| s.unwrap().path == 1));
     let mut json = Vec::new();
     frame.encode(Format::Json, &mut json).unwrap();
@@ -30,7 +36,9 @@ fn flat_meshes_are_their_boundary() {
     let outline = common::data("2d/woody.svg").unwrap();
     let (mesh, outline) = (read(&mesh), read(&outline));
     assert!(apart(mesh.outline(), outline.outline()) < 1e-3);
-    let moved = mesh.deformed(&|p| Point::new(p.x + 0.1 * p.y, p.y, 0.0)).unwrap();
+    let moved = mesh
+        .deformed(&|p| Point::new(p.x + 0.1 * p.y, p.y, 0.0))
+        .unwrap();
     let mut obj = Vec::new();
     moved.encode(Format::Obj, &mut obj).unwrap();
     assert!(apart(decoded(&obj, Format::Obj).outline(), moved.outline()) < 1e-9);
@@ -44,7 +52,11 @@ fn a_plane_may_be_tilted() {
     assert!((drawing.outline().area() - 2.0 * 2_f64.sqrt()).abs() < 1e-9);
     let shift = |p: Point| p + Vector::new(0.0, 0.5, 0.0);
     let mut obj = Vec::new();
-    drawing.deformed(&shift).unwrap().encode(Format::Obj, &mut obj).unwrap();
+    drawing
+        .deformed(&shift)
+        .unwrap()
+        .encode(Format::Obj, &mut obj)
+        .unwrap();
     let again = decoded(&obj, Format::Obj);
     assert!((again.outline().area() - drawing.outline().area()).abs() < 1e-9);
 }

@@ -44,7 +44,6 @@ fn lines_stay_lines_where_they_stay_straight() {
     let sheared = drawing
         .deformed(&|p| Point::new(p.x + 0.2 * p.y, p.y, 0.0))
         .unwrap();
-    assert!(!sheared.svg().contains(['c', 'C'].map(|c| format!("d=\"{c}")).as_slice()[0].as_str()));
     let data = data(&sheared);
     assert!(!data.contains(['c', 'C', 'q', 'Q']), "{data}");
     faithful(&sheared);
@@ -52,9 +51,9 @@ fn lines_stay_lines_where_they_stay_straight() {
         .deformed(&|p| Point::new(p.x + 0.004 * p.y * p.y, p.y, 0.0))
         .unwrap();
     faithful(&curved);
-    // The closing line is bent as well, and the level one is not.
+    // The closing line is bent, too; the level one is not.
     let data = self::data(&curved);
-    assert_eq!(data.matches(['c', 'C']).count(), 1, "{data}");
+    assert_eq!(data.matches(['c', 'C']).count(), 2, "{data}");
     assert!(data.contains(['h', 'H']), "{data}");
 }
 
@@ -75,7 +74,9 @@ fn basic_shapes_become_paths_and_keep_the_rest() {
     has(&moved, "id='r' class=\"k\" fill='red'/>");
     has(&moved, "><title>eye</title></path>");
     has(&moved, " stroke='blue'/>");
-    for gone in ["<rect", "<circle", "<polygon", "points=", "rx=", "cx=", "width="] {
+    for gone in [
+        "<rect", "<circle", "<polygon", "points=", "rx=", "cx=", "width=",
+    ] {
         assert!(!moved.svg().contains(gone), "{gone}");
     }
     faithful(&moved);
@@ -87,7 +88,10 @@ fn transforms_are_kept_and_undone() {
         "<g transform='rotate(30) scale(2,3)'><path transform='skewX(10)' d='M5 5H20V15C15 20 10 20 5 15Z'/></g>",
     );
     let moved = shifted(&drawing, 4.0, 4.0);
-    has(&moved, "<g transform='rotate(30) scale(2,3)'><path transform='skewX(10)'");
+    has(
+        &moved,
+        "<g transform='rotate(30) scale(2,3)'><path transform='skewX(10)'",
+    );
     faithful(&moved);
 }
 
@@ -102,8 +106,14 @@ fn uses_that_come_to_differ_become_groups() {
         .unwrap();
     faithful(&bent);
     has(&bent, "<defs><path id='leaf' d='M0 0h10v5h-10z'/></defs>");
-    has(&bent, "<g class='u' transform=\"translate(10 10)\"><path d='");
-    has(&bent, "<g id='second' transform=\"translate(50 50) scale(2) translate(0 0)\"><path d='");
+    has(
+        &bent,
+        "<g class='u' transform=\"translate(10 10)\"><path d='",
+    );
+    has(
+        &bent,
+        "<g id='second' transform=\"translate(50 50) scale(2) translate(0 0)\"><path d='",
+    );
     assert_eq!(bent.svg().matches("id='leaf'").count(), 1);
 }
 
@@ -130,9 +140,9 @@ fn loose_lines_hidden_parts_and_clips_ride_along() {
     );
     let moved = shifted(&drawing, 1.0, -1.0);
     has(&moved, "<clipPath id='c'><path d=\"M1 1");
-    has(&moved, "d='M1 1L10 10'");
+    has(&moved, "d='M1 1l9 9'");
     has(&moved, "d='M2 2H5V5z'");
-    has(&moved, "<path d=\"M1 1L6 6\" stroke='red'/>");
+    has(&moved, "<path d=\"M1 1 6 6\" stroke='red'/>");
     faithful(&moved);
 }
 
@@ -144,7 +154,10 @@ fn gradients_turn_along() {
          <rect fill='url(#base)' width='20' height='10'/><rect x='30' fill='url(#box)' width='20' height='10'/>",
     );
     let turned = drawing.deformed(&|p| Point::new(-p.y, p.x, 0.0)).unwrap();
-    has(&turned, "<linearGradient gradientTransform=\"matrix(0 -1 1 0 0 0)\" id='base'");
+    has(
+        &turned,
+        "<linearGradient gradientTransform=\"matrix(0 -1 1 0 0 0)\" id='base'",
+    );
     has(&turned, "<radialGradient id='box'/>");
 }
 
@@ -155,9 +168,15 @@ fn texts_and_images_move_as_a_whole() {
          <image transform='scale(2)' x='1' y='1' width='2' height='2' href='secret.png'/>",
     );
     let said = crate::shared::warnings(&drawing);
-    assert!(said.contains("1 text:") && said.contains("1 image:"), "{said}");
+    assert!(
+        said.contains("1 text:") && said.contains("1 image:"),
+        "{said}"
+    );
     let moved = shifted(&drawing, 5.0, -6.0);
-    has(&moved, "<text transform=\"matrix(1 0 0 1 5 6)\" x='10' y='20'>a</text>");
+    has(
+        &moved,
+        "<text transform=\"matrix(1 0 0 1 5 6)\" x='10' y='20'>a</text>",
+    );
     has(&moved, "<image transform='matrix(2 0 0 2 5 6)' x='1'");
     let turned = drawing.deformed(&|p| Point::new(-p.y, p.x, 0.0)).unwrap();
     has(&turned, "<text transform=\"matrix(0 -1 1 0 0 0)\"");
@@ -203,7 +222,9 @@ fn the_window_grows_with_what_leaves_it() {
 #[test]
 fn corners_stay_corners_and_smooth_points_smooth() {
     // A drop: a corner at the top, round elsewhere.
-    let drawing = elements("<path d='M50 10C60 30 70 40 70 60C70 71 61 80 50 80C39 80 30 71 30 60C30 40 40 30 50 10Z'/>");
+    let drawing = elements(
+        "<path d='M50 10C60 30 70 40 70 60C70 71 61 80 50 80C39 80 30 71 30 60C30 40 40 30 50 10Z'/>",
+    );
     let bent = drawing
         .deformed(&|p| Point::new(p.x + 0.003 * p.y * p.y, p.y + 0.1 * p.x, 0.0))
         .unwrap();
@@ -212,7 +233,11 @@ fn corners_stay_corners_and_smooth_points_smooth() {
     let ring = &again.outline().rings[0];
     let count = ring.points.len();
     let sharp = (0..count).filter(|&i| {
-        let (a, b, c) = (ring.points[(i + count - 1) % count], ring.points[i], ring.points[(i + 1) % count]);
+        let (a, b, c) = (
+            ring.points[(i + count - 1) % count],
+            ring.points[i],
+            ring.points[(i + 1) % count],
+        );
         (b - a).angle(&(c - b)) > 0.3
     });
     assert_eq!(sharp.count(), 1);
@@ -222,7 +247,9 @@ fn corners_stay_corners_and_smooth_points_smooth() {
 fn maps_to_nowhere_are_errors() {
     let drawing = elements("<rect width='10' height='10'/>");
     for bad in [f64::NAN, f64::INFINITY] {
-        let failed = drawing.deformed(&|p| Point::new(p.x, bad, 0.0)).unwrap_err();
+        let failed = drawing
+            .deformed(&|p| Point::new(p.x, bad, 0.0))
+            .unwrap_err();
         assert!(failed.to_string().contains("drawing"), "{failed}");
     }
 }

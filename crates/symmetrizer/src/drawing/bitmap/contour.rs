@@ -74,7 +74,10 @@ impl Field<'_> {
         let (bottom, right) = ((x, y + 1, false), (x + 1, y, true));
         let corners = [(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)];
         let depths = corners.map(|(x, y)| self.depth(x, y));
-        let bits = depths.iter().enumerate().map(|(i, d)| u8::from(*d > 0.0) << i);
+        let bits = depths
+            .iter()
+            .enumerate()
+            .map(|(i, d)| u8::from(*d > 0.0) << i);
         match bits.sum::<u8>() {
             0b0001 => vec![(top, left)],
             0b0010 => vec![(right, top)],

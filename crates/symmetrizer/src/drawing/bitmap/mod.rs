@@ -33,6 +33,8 @@ const SILHOUETTE: f64 = 0.85;
 /// What is read from a file.
 pub(super) struct Read {
     pub outline: Outline,
+    /// How exactly the picture tells where the outline is, pixels.
+    pub grain: f64,
     pub warnings: Vec<String>,
 }
 
@@ -54,7 +56,8 @@ pub(super) fn read(bytes: &[u8], format: Format, threshold: Option<f64>) -> Resu
             split.threshold
         ));
     }
-    let smooth = grey.blurred(split.blur(&grey));
+    let edges = split.edges(&grey);
+    let smooth = grey.blurred(edges.blur);
     let mut outline = region::of_rings(&contour::rings(&smooth, &split))?;
     let dropped = drop_specks(&mut outline);
     if outline.is_empty() {
@@ -67,7 +70,11 @@ pub(super) fn read(bytes: &[u8], format: Format, threshold: Option<f64>) -> Resu
         let plural = if dropped == 1 { "speck" } else { "specks" };
         warnings.push(format!("{dropped} {plural} left out"));
     }
-    Ok(Read { outline, warnings })
+    Ok(Read {
+        outline,
+        grain: edges.grain,
+        warnings,
+    })
 }
 
 fn decoded(bytes: &[u8], format: Format) -> Result<image::DynamicImage> {

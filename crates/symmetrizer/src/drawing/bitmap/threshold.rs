@@ -9,9 +9,26 @@ const BINS: usize = 256;
 /// A picture whose values differ by no more than this is of one colour.
 const EVEN: f32 = 1.5 / 255.0;
 
-/// Pixels, the blur of a picture whose edges are smooth already, and of one with bare steps.
-const SOFT: f64 = 0.5;
-const STEPS: f64 = 1.0;
+/// What a picture says of its edges.
+#[derive(Clone, Copy)]
+pub(super) struct Edges {
+    /// How far it should be blurred, pixels.
+    pub blur: f64,
+    /// How exactly it tells where they are, pixels.
+    pub grain: f64,
+}
+
+/// Edges that are smooth already. The outline of a disc is found to within 0.1.
+const SOFT: Edges = Edges {
+    blur: 0.7,
+    grain: 0.2,
+};
+
+/// Bare steps, which are half a pixel from any line; curves that use all of that cut corners.
+const STEPS: Edges = Edges {
+    blur: 1.0,
+    grain: 0.25,
+};
 
 /// Share of values between the two classes, below which edges are bare steps.
 const BETWEEN: f64 = 0.002;
@@ -37,14 +54,24 @@ pub(super) struct Split {
 /// [`Error::Params`] for a threshold outside 0..1, [`Error::Input`] where all lies on one side of it.
 pub(super) fn split(grey: &Grey, given: Option<f64>) -> Result<Split> {
     if let Some(t) = given.filter(|t| !(*t > 0.0 && *t < 1.0)) {
-        return Err(Error::params("threshold", format!("{t} is not between 0 and 1")));
+        return Err(Error::params(
+            "threshold",
+            format!("{t} is not between 0 and 1"),
+        ));
     }
     let low = grey.values.iter().copied().fold(f32::INFINITY, f32::min);
-    let high = grey.values.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+    let high = grey
+        .values
+        .iter()
+        .copied()
+        .fold(f32::NEG_INFINITY, f32::max);
     if !(high - low > EVEN) {
         let (w, h) = (grey.width, grey.height);
         let what = format!("the picture ({w} x {h} pixels) has one colour only");
-        return Err(Error::input(what, "it must show a shape before a plain background"));
+        return Err(Error::input(
+            what,
+            "it must show a shape before a plain background",
+        ));
     }
     let histogram = histogram(grey, low, high);
     let (cut, separation) = otsu(&histogram);
@@ -73,8 +100,8 @@ pub(super) fn split(grey: &Grey, given: Option<f64>) -> Result<Split> {
 }
 
 impl Split {
-    /// How far the picture should be blurred, pixels.
-    pub fn blur(&self, grey: &Grey) -> f64 {
+    /// Whether the picture's edges are smooth.
+    pub fn edges(&self, grey: &Grey) -> Edges {
         let [dark, light] = self.medians;
         let margin = 0.1 * (light - dark);
         let between = |v: &&f32| **v > dark + margin && **v < light - margin;
@@ -101,7 +128,10 @@ fn histogram(grey: &Grey, low: f32, high: f32) -> [u64; BINS] {
 fn otsu(counts: &[u64; BINS]) -> (usize, f64) {
     let total: f64 = counts.iter().sum::<u64>() as f64;
     let moment = |k: i32| -> f64 {
-        let terms = counts.iter().enumerate().map(|(i, &c)| (i as f64).powi(k) * c as f64);
+        let terms = counts
+            .iter()
+            .enumerate()
+            .map(|(i, &c)| (i as f64).powi(k) * c as f64);
         terms.sum::<f64>() / total
     };
     let (mean, variance) = (moment(1), moment(2) - moment(1).powi(2));

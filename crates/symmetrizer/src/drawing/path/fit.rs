@@ -66,14 +66,18 @@ fn solved(samples: &Samples<'_>, at: &[f64]) -> Option<CubicBez> {
     } else if bb > 0.0 {
         y = bc / bb;
     }
-    // A handle that points backwards would make a loop.
-    let (x, y) = (x.max(0.0), y.max(0.0));
-    let curve = CubicBez::new(from, from + u * x, to - v * y, to);
-    let longest = LONGEST * span(samples.points);
-    let fits = [curve.p1 - from, curve.p2 - to]
-        .iter()
-        .all(|h| h.hypot() <= longest);
-    (curve.is_finite() && fits).then_some(curve)
+    let span = span(samples.points);
+    // A handle that points backwards would make a loop; one that is far too long does not fit.
+    let sane = |length: f64, direction: Vec2| {
+        let unit = direction.hypot();
+        if unit * length <= LONGEST * span {
+            length.max(0.0)
+        } else {
+            span / (3.0 * unit)
+        }
+    };
+    let curve = CubicBez::new(from, from + u * sane(x, u), to - v * sane(y, v), to);
+    curve.is_finite().then_some(curve)
 }
 
 /// The length of the polygon of the samples.
@@ -90,5 +94,9 @@ fn nearer(curve: &CubicBez, t: f64, p: Point) -> f64 {
         first.deriv().eval(t).to_vec2(),
     );
     let (f, df) = (gap.dot(slope), slope.dot(slope) + gap.dot(bend));
-    if df > 0.0 { (t - f / df).clamp(0.0, 1.0) } else { t }
+    if df > 0.0 {
+        (t - f / df).clamp(0.0, 1.0)
+    } else {
+        t
+    }
 }

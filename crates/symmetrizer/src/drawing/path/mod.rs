@@ -9,6 +9,9 @@ pub(super) mod write;
 
 use kurbo::{Affine, ParamCurve, PathSeg, Point};
 
+/// Of a coordinate: what sums of thousands of them are off by.
+const ROUNDING: f64 = 1e-11;
+
 /// A connected part of a path.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Subpath {
@@ -38,10 +41,21 @@ impl Subpath {
     /// Closes the subpath, with a line where its end is not its start.
     pub fn close(&mut self) {
         self.closed = true;
-        if self.end() != self.start {
-            let line = kurbo::Line::new(self.end(), self.start);
-            self.segments.push(PathSeg::Line(line));
+        let (start, end) = (self.start, self.end());
+        // Sums of relative coordinates rarely come back to the last bit.
+        let reach = |m: f64, p: Point| m.max(p.x.abs()).max(p.y.abs());
+        let ends = self.segments.iter().map(ParamCurve::end);
+        let near = ROUNDING * ends.fold(reach(0.0, start), reach);
+        if start.distance(end) > near {
+            self.segments
+                .push(PathSeg::Line(kurbo::Line::new(end, start)));
             self.joined = true;
+        } else if let Some(last) = self.segments.last_mut() {
+            match last {
+                PathSeg::Line(l) => l.p1 = start,
+                PathSeg::Quad(q) => q.p2 = start,
+                PathSeg::Cubic(c) => c.p3 = start,
+            }
         }
     }
 

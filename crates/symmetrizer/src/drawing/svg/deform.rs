@@ -74,7 +74,12 @@ pub(super) fn edits(
     }
     if let Some(around) = around {
         let before = seen(scene);
-        edits.extend(viewport::widened(tree, before, around, PRECISION * diagonal));
+        edits.extend(viewport::widened(
+            tree,
+            before,
+            around,
+            PRECISION * diagonal,
+        ));
     }
     Ok(edits)
 }
@@ -101,11 +106,18 @@ fn moved(whole: &Whole, diagonal: f64, map: Map<'_>) -> Option<(Spot, Vec<Edit>)
     }
     let own = inverse(whole.around)? * motion * whole.around * whole.own;
     let value = matrix(own, decimals(whole.around, diagonal) + 1);
-    Some((whole.spot.clone(), vec![Edit::Attribute("transform", value)]))
+    Some((
+        whole.spot.clone(),
+        vec![Edit::Attribute("transform", value)],
+    ))
 }
 
 fn rests(motion: &Affine, centre: Point, diagonal: f64) -> bool {
-    let ends = [Vec2::new(diagonal, 0.0), Vec2::new(0.0, diagonal), Vec2::ZERO];
+    let ends = [
+        Vec2::new(diagonal, 0.0),
+        Vec2::new(0.0, diagonal),
+        Vec2::ZERO,
+    ];
     let shift = |v: Vec2| (*motion * (centre + v)).distance(centre + v);
     ends.into_iter().map(shift).fold(0.0, f64::max) <= STILL.sqrt() * diagonal
 }
@@ -134,14 +146,25 @@ fn turned(
         .flat_map(|p| p.path.control_points().map(|c| p.place * c))
         .collect();
     let fit = motion::affine(map, &points)?;
-    let around = points.iter().copied().fold(Rect::from_points(points[0], points[0]), |r, p| r.union_pt(p));
+    let around = points
+        .iter()
+        .copied()
+        .fold(Rect::from_points(points[0], points[0]), |r, p| {
+            r.union_pt(p)
+        });
     if rests(&fit, around.center(), diagonal) {
         return None;
     }
     let before = inherited(tree, paint.node, attribute);
-    let own = before.as_deref().and_then(transform).unwrap_or(Affine::IDENTITY);
+    let own = before
+        .as_deref()
+        .and_then(transform)
+        .unwrap_or(Affine::IDENTITY);
     let place = paint.place;
-    let value = matrix(inverse(place)? * fit * place * own, decimals(place, diagonal) + 1);
+    let value = matrix(
+        inverse(place)? * fit * place * own,
+        decimals(place, diagonal) + 1,
+    );
     let spot = Spot {
         chain: Vec::new(),
         node: paint.node,
@@ -165,14 +188,22 @@ fn inherited(tree: &Document<'_>, first: u32, name: &str) -> Option<String> {
 
 /// The box around the paths that are seen.
 fn seen(scene: &Scene) -> Rect {
-    let seen = scene.pieces.iter().filter(|p| matches!(p.role, Role::Filled(_) | Role::Stroked));
+    let seen = scene
+        .pieces
+        .iter()
+        .filter(|p| matches!(p.role, Role::Filled(_) | Role::Stroked));
     let boxes = seen.filter_map(|p| silhouette::box_of(&p.path, p.place));
     boxes.reduce(|a, b| a.union(b)).unwrap_or_default()
 }
 
 /// The diagonal of all paths, drawing units.
 pub(super) fn diagonal(scene: &Scene) -> f64 {
-    let seen = scene.pieces.iter().filter(|p| !matches!(p.role, Role::Clip(_)));
+    let seen = scene
+        .pieces
+        .iter()
+        .filter(|p| !matches!(p.role, Role::Clip(_)));
     let boxes = seen.filter_map(|p| silhouette::box_of(&p.path, p.place));
-    boxes.reduce(|a, b| a.union(b)).map_or(0.0, |b| b.width().hypot(b.height()))
+    boxes
+        .reduce(|a, b| a.union(b))
+        .map_or(0.0, |b| b.width().hypot(b.height()))
 }

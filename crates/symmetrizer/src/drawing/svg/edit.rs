@@ -106,14 +106,25 @@ impl Editor<'_, '_> {
                 _ => attributes += &format!(" {}", &self.text[a.range()]),
             }
         }
-        let at = |name| element.attribute(name).unwrap_or("0").trim_end_matches("px");
+        let at = |name| {
+            element
+                .attribute(name)
+                .unwrap_or("0")
+                .trim_end_matches("px")
+        };
         transform += &format!("translate({} {})", at("x"), at("y"));
         let inner = self.copied(target, element, &chain, prefix);
         format!("<{prefix}g{attributes} transform=\"{transform}\">{inner}</{prefix}g>")
     }
 
     /// A copy of what a `use` shows, with its changes.
-    fn copied(&self, target: Node<'_, '_>, used: Node<'_, '_>, chain: &[u32], prefix: &str) -> String {
+    fn copied(
+        &self,
+        target: Node<'_, '_>,
+        used: Node<'_, '_>,
+        chain: &[u32],
+        prefix: &str,
+    ) -> String {
         let mut splices = Vec::new();
         self.gather(target, chain, true, &mut splices);
         let range = target.range();

@@ -15,7 +15,8 @@ pub(super) fn rigid(map: &dyn Fn(Point) -> Point, at: Point, step: f64) -> Optio
     } else {
         0.0
     };
-    let motion = Affine::translate(to.to_vec2()) * Affine::rotate(turn) * Affine::translate(-at.to_vec2());
+    let motion =
+        Affine::translate(to.to_vec2()) * Affine::rotate(turn) * Affine::translate(-at.to_vec2());
     motion.is_finite().then_some(motion)
 }
 

@@ -178,7 +178,12 @@ impl<'a, 'input> Walk<'a, 'input> {
     }
 
     /// What holds inside an element.
-    fn inside(&mut self, node: Node<'a, 'input>, own: &Own<'a>, here: &Here<'a>) -> Result<Here<'a>> {
+    fn inside(
+        &mut self,
+        node: Node<'a, 'input>,
+        own: &Own<'a>,
+        here: &Here<'a>,
+    ) -> Result<Here<'a>> {
         let mut inside = here.clone();
         inside.style = here.style.with(own);
         inside.place = here.place * own_transform(own);
@@ -228,18 +233,29 @@ impl<'a, 'input> Walk<'a, 'input> {
     fn switch(&mut self, node: Node<'a, 'input>, here: &Here<'a>) -> Result<()> {
         let mut children = node.children().filter(|c| c.is_element() && is_svg(*c));
         let plain = |c: &Node<'_, '_>| !c.has_attribute("requiredExtensions");
-        children.find(plain).map_or(Ok(()), |c| self.element(c, here))
+        children
+            .find(plain)
+            .map_or(Ok(()), |c| self.element(c, here))
     }
 
     /// A drawing or symbol inside the drawing; `sized` says how large it is.
-    fn nested(&mut self, node: Node<'a, 'input>, here: &Here<'a>, sized: Node<'a, 'input>) -> Result<()> {
+    fn nested(
+        &mut self,
+        node: Node<'a, 'input>,
+        here: &Here<'a>,
+        sized: Node<'a, 'input>,
+    ) -> Result<()> {
         let placed = node.tag_name().name() == "svg";
         let size = |name, axis, all| {
             let given = length(sized, name, axis, here.view);
             let own = length(node, name, axis, here.view).filter(|_| placed);
             given.or(own).unwrap_or(all)
         };
-        let at = |name, axis| length(node, name, axis, here.view).filter(|_| placed).unwrap_or(0.0);
+        let at = |name, axis| {
+            length(node, name, axis, here.view)
+                .filter(|_| placed)
+                .unwrap_or(0.0)
+        };
         let size = Size::new(
             size("width", Axis::X, here.view.width),
             size("height", Axis::Y, here.view.height),
@@ -289,7 +305,9 @@ impl<'a, 'input> Walk<'a, 'input> {
         // A text may give a position for each letter.
         let first = |name| {
             let list = node.attribute(name).unwrap_or("");
-            svgtypes::LengthListParser::from(list).find_map(|l| l.ok()).map_or(0.0, |l| l.number)
+            svgtypes::LengthListParser::from(list)
+                .find_map(|l| l.ok())
+                .map_or(0.0, |l| l.number)
         };
         let centre = match name {
             "text" => Point::new(first("x"), first("y")),
@@ -380,9 +398,16 @@ impl<'a, 'input> Walk<'a, 'input> {
             return Ok(Some(known));
         }
         let is_clip = node.tag_name().name() == "clipPath";
-        let unit = if is_clip { "clipPathUnits" } else { "maskContentUnits" };
+        let unit = if is_clip {
+            "clipPathUnits"
+        } else {
+            "maskContentUnits"
+        };
         if node.attribute(unit) == Some("objectBoundingBox") {
-            let text = format!("{} is in units of a bounding box; it stays as it is", shown(node));
+            let text = format!(
+                "{} is in units of a bounding box; it stays as it is",
+                shown(node)
+            );
             self.scene.warnings.push(text);
             return Ok(None);
         }
@@ -430,6 +455,9 @@ pub(super) fn referenced<'a>(node: Node<'a, '_>) -> Option<&'a str> {
 }
 
 /// A node by its number in a [`Spot`].
-pub(super) fn node<'a, 'input>(tree: &'a Document<'input>, number: u32) -> Option<Node<'a, 'input>> {
+pub(super) fn node<'a, 'input>(
+    tree: &'a Document<'input>,
+    number: u32,
+) -> Option<Node<'a, 'input>> {
     tree.get_node(NodeId::new(number))
 }

@@ -35,7 +35,8 @@ pub(super) fn path(node: Node<'_, '_>, view: Size) -> Option<Path> {
             ellipse(x("cx"), y("cy"), rx.or(ry)?, ry.or(rx)?)
         }
         "line" => {
-            let at = |a: Option<f64>, b: Option<f64>| Point::new(a.unwrap_or(0.0), b.unwrap_or(0.0));
+            let at =
+                |a: Option<f64>, b: Option<f64>| Point::new(a.unwrap_or(0.0), b.unwrap_or(0.0));
             Some(chain(&[at(x("x1"), y("y1")), at(x("x2"), y("y2"))], false))
         }
         name @ ("polyline" | "polygon") => {
@@ -98,7 +99,12 @@ fn rect(node: Node<'_, '_>, view: Size) -> Option<Path> {
     let ry_or = ry.or(rx).unwrap_or(0.0).min(h / 2.0);
     let corner = |fx: f64, fy: f64| at + Vec2::new(fx, fy);
     if rx_or == 0.0 || ry_or == 0.0 {
-        let corners = [corner(0.0, 0.0), corner(w, 0.0), corner(w, h), corner(0.0, h)];
+        let corners = [
+            corner(0.0, 0.0),
+            corner(w, 0.0),
+            corner(w, h),
+            corner(0.0, h),
+        ];
         return Some(chain(&corners, true));
     }
     let radii = Vec2::new(rx_or, ry_or);

@@ -39,7 +39,11 @@ pub(super) fn outline(scene: &mut Scene) -> Result<Outline> {
         return Ok(outline);
     }
     let closed = |p: &Piece| {
-        let closed = p.path.subpaths.iter().any(|s| s.closed || s.end() == s.start);
+        let closed = p
+            .path
+            .subpaths
+            .iter()
+            .any(|s| s.closed || s.end() == s.start);
         (p.role == Role::Stroked && closed).then_some(Rule::NonZero)
     };
     let outline = region(scene, bounds, &closed)?;
@@ -59,7 +63,11 @@ fn bounds<'a>(pieces: impl Iterator<Item = &'a Piece>) -> Result<Rect> {
     let mut all: Option<Rect> = None;
     for piece in pieces {
         let bounds = box_of(&piece.path, piece.place);
-        let far = bounds.map(|b| [b.x0, b.y0, b.x1, b.y1].iter().fold(0.0, |m: f64, c| m.max(c.abs())));
+        let far = bounds.map(|b| {
+            [b.x0, b.y0, b.x1, b.y1]
+                .iter()
+                .fold(0.0, |m: f64, c| m.max(c.abs()))
+        });
         if far.is_some_and(|far| !(far < FARTHEST)) {
             let what = format!("a path has coordinates of {FARTHEST:e} or more");
             return Err(Error::input(what, "scale the drawing down"));
@@ -73,7 +81,10 @@ fn bounds<'a>(pieces: impl Iterator<Item = &'a Piece>) -> Result<Rect> {
     }
     let Some(all) = all else {
         let what = "the drawing has no paths";
-        return Err(Error::input(what, "only paths and basic shapes can be deformed"));
+        return Err(Error::input(
+            what,
+            "only paths and basic shapes can be deformed",
+        ));
     };
     let (size, far) = (
         all.width().hypot(all.height()),
@@ -92,12 +103,9 @@ pub(super) fn box_of(path: &Path, place: Affine) -> Option<Rect> {
     let first = points.next()?;
     let around = Rect::from_points(first, first);
     // A comparison with something that is no number would lose it.
-    points.try_fold(around, |r, p| p.is_finite().then(|| r.union_pt(p))).or(Some(Rect::new(
-        f64::NEG_INFINITY,
-        0.0,
-        f64::INFINITY,
-        0.0,
-    )))
+    points
+        .try_fold(around, |r, p| p.is_finite().then(|| r.union_pt(p)))
+        .or(Some(Rect::new(f64::NEG_INFINITY, 0.0, f64::INFINITY, 0.0)))
 }
 
 /// The grid, and how exactly polygons follow curves on it.
@@ -112,7 +120,10 @@ impl Ground {
         let diagonal = bounds.width().hypot(bounds.height());
         // Clip paths may be far larger than what they cut; beyond this they are cut themselves.
         let most = bounds.inflate(CLIP * diagonal, CLIP * diagonal);
-        let clips = scene.pieces.iter().filter(|p| matches!(p.role, Role::Clip(_)));
+        let clips = scene
+            .pieces
+            .iter()
+            .filter(|p| matches!(p.role, Role::Clip(_)));
         let boxes = clips.filter_map(|p| box_of(&p.path, p.place));
         let room = boxes.fold(bounds, |a, b| a.union(b)).intersect(most);
         Self {
@@ -188,7 +199,10 @@ pub(super) fn mark_background(scene: &mut Scene) {
         let common = frame.intersect(window);
         common.area() >= (1.0 - FRAME) * window.area()
     });
-    let first = scene.pieces.iter().position(|p| matches!(p.role, Role::Filled(_)));
+    let first = scene
+        .pieces
+        .iter()
+        .position(|p| matches!(p.role, Role::Filled(_)));
     let Some(first) = first.filter(|_| holds && fills) else {
         return;
     };

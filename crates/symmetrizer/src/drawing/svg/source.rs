@@ -40,7 +40,10 @@ pub(super) fn text(bytes: Vec<u8>) -> Result<String> {
     }
     let text = String::from_utf8(bytes).map_err(|e| {
         let at = e.utf8_error().valid_up_to();
-        Error::input(format!("byte {at} is not UTF-8"), "save the drawing as UTF-8")
+        Error::input(
+            format!("byte {at} is not UTF-8"),
+            "save the drawing as UTF-8",
+        )
     })?;
     check_entities(&text)?;
     Ok(text)
@@ -81,11 +84,15 @@ pub(super) fn tree(text: &str) -> Result<Document<'_>> {
         ..ParsingOptions::default()
     };
     let tree = Document::parse_with_options(text, options);
-    let tree = tree.map_err(|e| Error::input(format!("XML: {e}"), "the file is damaged; export it again"))?;
+    let tree = tree
+        .map_err(|e| Error::input(format!("XML: {e}"), "the file is damaged; export it again"))?;
     check_depth(&tree)?;
     let root = tree.root_element();
     if !is_svg(root) || root.tag_name().name() != "svg" {
-        let what = format!("the file is XML, but its root is <{}>", root.tag_name().name());
+        let what = format!(
+            "the file is XML, but its root is <{}>",
+            root.tag_name().name()
+        );
         return Err(Error::input(what, "an SVG drawing begins with <svg>"));
     }
     Ok(tree)

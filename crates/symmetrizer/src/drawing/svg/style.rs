@@ -47,7 +47,10 @@ impl<'a> Sheets<'a> {
         }
         if sheet.rules.len() * elements > LOOKS {
             let what = format!("{} style rules for {elements} elements", sheet.rules.len());
-            return Err(Error::input(what, "export the drawing with presentation attributes"));
+            return Err(Error::input(
+                what,
+                "export the drawing with presentation attributes",
+            ));
         }
         Ok(Self(sheet))
     }

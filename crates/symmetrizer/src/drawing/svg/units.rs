@@ -21,7 +21,9 @@ pub(super) fn length(node: Node<'_, '_>, name: &str, axis: Axis, view: Size) -> 
     let whole = match axis {
         Axis::X => view.width,
         Axis::Y => view.height,
-        Axis::Diagonal => (view.width.powi(2) + view.height.powi(2)).sqrt() / std::f64::consts::SQRT_2,
+        Axis::Diagonal => {
+            (view.width.powi(2) + view.height.powi(2)).sqrt() / std::f64::consts::SQRT_2
+        }
     };
     let user_units = match unit {
         LengthUnit::None | LengthUnit::Px => 1.0,
@@ -54,7 +56,8 @@ pub(super) fn fitted(node: Node<'_, '_>, content: Rect, viewport: Size) -> Affin
     );
     let (fx, fy) = match align {
         Align::None => {
-            return Affine::scale_non_uniform(sx, sy) * Affine::translate(-content.origin().to_vec2());
+            return Affine::scale_non_uniform(sx, sy)
+                * Affine::translate(-content.origin().to_vec2());
         }
         Align::XMinYMin => (0.0, 0.0),
         Align::XMidYMin => (0.5, 0.0),
@@ -85,7 +88,9 @@ pub(super) fn transform(value: &str) -> Option<Affine> {
 /// A transform as an attribute has it, to nine significant digits or so of a coordinate.
 pub(super) fn matrix(transform: Affine, decimals: u32) -> String {
     let c = transform.as_coeffs();
-    let linear = c[..4].iter().map(|&v| crate::drawing::path::write::number(v, 8));
+    let linear = c[..4]
+        .iter()
+        .map(|&v| crate::drawing::path::write::number(v, 8));
     let moved = c[4..]
         .iter()
         .map(|&v| crate::drawing::path::write::number(v, decimals));

@@ -26,7 +26,9 @@ const UNKNOWN: Size = Size::new(100.0, 100.0);
 pub(super) fn root(node: Node<'_, '_>) -> Window {
     let size = |name, axis| {
         let value = node.attribute(name).filter(|v| !v.trim().ends_with('%'));
-        value.and_then(|_| length(node, name, axis, UNKNOWN)).filter(|v| *v > 0.0)
+        value
+            .and_then(|_| length(node, name, axis, UNKNOWN))
+            .filter(|v| *v > 0.0)
     };
     let size = size("width", Axis::X).zip(size("height", Axis::Y));
     let size = size.map(|(w, h)| Size::new(w, h));
@@ -63,10 +65,26 @@ pub(super) fn widened(
     let shown = window.shown?;
     let room = ROOM * after.width().max(after.height());
     let wide = Rect::new(
-        if before.x0 >= shown.x0 && after.x0 < shown.x0 { after.x0 - room } else { shown.x0 },
-        if before.y0 >= shown.y0 && after.y0 < shown.y0 { after.y0 - room } else { shown.y0 },
-        if before.x1 <= shown.x1 && after.x1 > shown.x1 { after.x1 + room } else { shown.x1 },
-        if before.y1 <= shown.y1 && after.y1 > shown.y1 { after.y1 + room } else { shown.y1 },
+        if before.x0 >= shown.x0 && after.x0 < shown.x0 {
+            after.x0 - room
+        } else {
+            shown.x0
+        },
+        if before.y0 >= shown.y0 && after.y0 < shown.y0 {
+            after.y0 - room
+        } else {
+            shown.y0
+        },
+        if before.x1 <= shown.x1 && after.x1 > shown.x1 {
+            after.x1 + room
+        } else {
+            shown.x1
+        },
+        if before.y1 <= shown.y1 && after.y1 > shown.y1 {
+            after.y1 + room
+        } else {
+            shown.y1
+        },
     );
     if wide == shown {
         return None;

@@ -1,5 +1,7 @@
 //! The region of the plane that is made symmetric, as closed rings.
 
+mod bend;
+
 use crate::geom::Point;
 
 /// Where on the drawing a point of a ring lies.
@@ -124,6 +126,19 @@ impl Outline {
         for p in moved.rings.iter_mut().flat_map(|r| &mut r.points) {
             *p = map(*p);
         }
+        self.facing_as_before(moved)
+    }
+
+    /// The outline moved by `map`, edges included: where an edge bends, points are added until
+    /// chords lie within `tolerance`, drawing units, of its image.
+    #[must_use]
+    pub fn bent(&self, map: &dyn Fn(Point) -> Point, tolerance: f64) -> Self {
+        let bent = |r: &Ring| bend::ring(r, map, tolerance);
+        let rings = self.rings.iter().map(bent).collect();
+        self.facing_as_before(Self { rings })
+    }
+
+    fn facing_as_before(&self, mut moved: Self) -> Self {
         if moved.area() * self.area() < 0.0 {
             moved.rings.iter_mut().for_each(Ring::reverse);
         }
