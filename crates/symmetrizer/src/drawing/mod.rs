@@ -17,6 +17,7 @@ mod region;
 mod render;
 mod rings;
 mod svg;
+mod trace;
 
 use std::io::Write;
 use std::path::Path;

@@ -159,7 +159,8 @@ fn scribbles_are_refused_before_they_take_hours() {
 
 #[test]
 fn style_sheets_have_limits() {
-    let rules: String = (0..5000).fold(String::new(), |all, i| all + &format!(".c{i}{{fill:red}}"));
+    let rules: String =
+        (0..20_000).fold(String::new(), |all, i| all + &format!(".c{i}{{fill:red}}"));
     let content = format!(
         "<style>{rules}</style>{}",
         "<rect width='1' height='1'/>".repeat(5000)
@@ -252,4 +253,24 @@ fn damaged_copies_of_real_drawings_are_read_or_refused() {
             }
         }
     }
+}
+
+#[test]
+fn scribbles_just_below_the_limit_take_seconds() {
+    let mut data = String::from("M0 0");
+    let mut seed = 1_u64;
+    for _ in 0..2800 {
+        seed = seed
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        write!(data, "L{} {}", (seed >> 40) % 1000, (seed >> 50) % 1000).unwrap();
+    }
+    let started = Instant::now();
+    let drawing = elements(&format!("<path d='{data}'/>"));
+    assert!(drawing.outline().area() > 0.0);
+    assert!(
+        started.elapsed() < Duration::from_secs(30),
+        "{:?}",
+        started.elapsed()
+    );
 }

@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
-use crate::shared::{elements, page, text, warnings};
+use symmetrizer::drawing::Format;
+
+use crate::shared::{decoded, elements, page, text, warnings};
 
 #[track_caller]
 fn area(content: &str, expected: f64) {
@@ -177,4 +179,38 @@ fn percentages_entities_and_missing_namespaces_are_no_hindrance() {
     );
     let bom = format!("\u{feff}{}", page("<rect width='5' height='5'/>"));
     assert_eq!(text(&bom).outline().area(), 25.0);
+}
+
+/// Places that are easily got wrong, where another implementation has the word.
+#[test]
+fn the_renderer_agrees_about_places() {
+    for content in [
+        "<svg x='10' y='20' width='60' height='30' viewBox='0 0 10 10' preserveAspectRatio='xMaxYMin meet'>\
+         <circle cx='5' cy='5' r='4'/></svg>",
+        "<svg width='60' height='30' viewBox='0 0 10 10' preserveAspectRatio='none'><circle cx='5' cy='5' r='4'/></svg>",
+        "<symbol id='s' viewBox='0 0 20 10'><ellipse cx='10' cy='5' rx='9' ry='4'/></symbol>\
+         <use href='#s' x='10' y='10' width='40' height='60'/><use href='#s' transform='rotate(45) scale(.5)' x='60' width='50' height='20'/>",
+        "<g id='a'><rect x='1' y='1' width='8' height='3'/></g><g transform='skewX(20)'><use href='#a' y='10'/><use href='#a' y='20' transform='rotate(10)'/></g>",
+        "<g transform='matrix(-1 .2 .3 1 60 5)'><path transform='rotate(30 20 20)' d='m5 5q10-10 20 0t20 0v20a5 9 30 01-10 5z'/></g>",
+        "<style>.a{fill:none} g .b{fill:black} #c{display:none} rect.d:first-child{fill-rule:evenodd}</style>\
+         <rect class='a' width='9' height='9'/><g class='a'><rect class='b' x='20' width='9' height='9'/></g><rect id='c' width='50' height='50'/>",
+        "<path fill-rule='evenodd' d='M10 10h50v50h-50zM20 20h30v30h-30zM30 30h10v10h-10z'/>",
+        "<clipPath id='k' transform='translate(5 5)'><rect width='20' height='20'/><circle cx='40' cy='30' r='9'/></clipPath>\
+         <g transform='rotate(10)'><g clip-path='url(#k)'><rect width='90' height='35'/></g></g>",
+        "<clipPath id='k'><path clip-rule='evenodd' d='M0 0h50v50h-50zM10 10h30v30h-30z'/></clipPath><rect clip-path='url(#k)' width='45' height='90'/>",
+        "<defs><g id='x'><rect width='10' height='10' fill='inherit'/></g></defs><use href='#x' fill='none'/><use href='#x' x='30' y='30'/>",
+        "<switch><g systemLanguage='en'><rect width='10' height='10'/></g><rect width='50' height='50'/></switch>",
+        "<path d='M10 10L60 10 60 60zM70 70h10v10'/><path d='M5 80l10 0 0 10zl-3 0 0 4z'/>",
+    ] {
+        let drawing = elements(content);
+        let mut png = Vec::new();
+        drawing.encode(Format::Png, &mut png).unwrap();
+        let seen = decoded(&png, Format::Png);
+        let scale = 10.24_f64.powi(2);
+        let (ours, theirs) = (drawing.outline().area() * scale, seen.outline().area());
+        assert!(
+            (ours / theirs - 1.0).abs() < 5e-3,
+            "{ours} and {theirs}: {content}"
+        );
+    }
 }

@@ -65,7 +65,7 @@ pub(super) fn split(grey: &Grey, given: Option<f64>) -> Result<Split> {
         .iter()
         .copied()
         .fold(f32::NEG_INFINITY, f32::max);
-    if !(high - low > EVEN) {
+    if high - low <= EVEN {
         let (w, h) = (grey.width, grey.height);
         let what = format!("the picture ({w} x {h} pixels) has one colour only");
         return Err(Error::input(

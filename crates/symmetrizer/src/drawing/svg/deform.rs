@@ -1,10 +1,12 @@
 //! A document deformed: paths bent, gradients turned along, texts and images moved.
 
+use std::collections::BTreeMap;
+
 use kurbo::{Affine, Point, Rect, Vec2};
-use roxmltree::Document;
+use roxmltree::{Document, Node};
 
 use super::edit::{Edit, Edits};
-use super::scene::{Piece, Role, Scene, Spot, Whole, node};
+use super::scene::{Paint, Piece, Role, Scene, Spot, Whole, by_id, node, referenced};
 use super::units::{matrix, transform};
 use super::{motion, silhouette, viewport};
 use crate::drawing::path::bend::Bending;
@@ -23,6 +25,9 @@ const STILL: f64 = 1e-9;
 /// Of the diagonal: half the width over which a map is differentiated. A map that is linear on
 /// pieces is averaged over them.
 const STEP: f64 = 1e-4;
+
+/// Gradients that refer to each other.
+const CHAIN: usize = 16;
 
 type Map<'a> = &'a dyn Fn(Point) -> Point;
 
@@ -69,8 +74,18 @@ pub(super) fn edits(
     for whole in &scene.wholes {
         edits.extend(moved(whole, diagonal, map));
     }
-    for number in 0..scene.paints.len() {
-        edits.extend(turned(tree, scene, number, diagonal, map));
+    let mut painted: Vec<Vec<&Piece>> = vec![Vec::new(); scene.paints.len()];
+    for piece in &scene.pieces {
+        piece.paints.iter().for_each(|&p| painted[p].push(piece));
+    }
+    let named = by_id(tree);
+    for (paint, pieces) in scene.paints.iter().zip(&painted) {
+        let turning = Turning {
+            named: &named,
+            diagonal,
+            map,
+        };
+        edits.extend(turning.edit(tree, paint, pieces));
     }
     if let Some(around) = around {
         let before = seen(scene);
@@ -99,17 +114,13 @@ fn decimals(place: Affine, diagonal: f64) -> u32 {
 /// An element that moves as a whole: as the plane does at its centre.
 fn moved(whole: &Whole, diagonal: f64, map: Map<'_>) -> Option<(Spot, Vec<Edit>)> {
     let motion = motion::rigid(map, whole.centre, STEP * diagonal)?;
-    if (motion * whole.centre).distance(map(whole.centre)) > diagonal
-        || rests(&motion, whole.centre, diagonal)
-    {
+    if rests(&motion, whole.centre, diagonal) {
         return None;
     }
     let own = inverse(whole.around)? * motion * whole.around * whole.own;
     let value = matrix(own, decimals(whole.around, diagonal) + 1);
-    Some((
-        whole.spot.clone(),
-        vec![Edit::Attribute("transform", value)],
-    ))
+    let edit = Edit::Attribute("transform", value);
+    Some((whole.spot.clone(), vec![edit]))
 }
 
 fn rests(motion: &Affine, centre: Point, diagonal: f64) -> bool {
@@ -122,68 +133,65 @@ fn rests(motion: &Affine, centre: Point, diagonal: f64) -> bool {
     ends.into_iter().map(shift).fold(0.0, f64::max) <= STILL.sqrt() * diagonal
 }
 
-/// A gradient or pattern in user units, turned by the affine map that best fits what the paths do
-/// that it paints.
-fn turned(
-    tree: &Document<'_>,
-    scene: &Scene,
-    number: usize,
+/// Gradients and patterns that turn along.
+struct Turning<'a> {
+    named: &'a BTreeMap<&'a str, Node<'a, 'a>>,
     diagonal: f64,
-    map: Map<'_>,
-) -> Option<(Spot, Vec<Edit>)> {
-    let paint = &scene.paints[number];
-    let element = node(tree, paint.node)?;
-    let (units, attribute) = match element.tag_name().name() {
-        "linearGradient" | "radialGradient" => ("gradientUnits", "gradientTransform"),
-        "pattern" => ("patternUnits", "patternTransform"),
-        _ => return None,
-    };
-    if inherited(tree, paint.node, units)? != "userSpaceOnUse" {
-        return None;
-    }
-    let painted = scene.pieces.iter().filter(|p| p.paints.contains(&number));
-    let points: Vec<Point> = painted
-        .flat_map(|p| p.path.control_points().map(|c| p.place * c))
-        .collect();
-    let fit = motion::affine(map, &points)?;
-    let around = points
-        .iter()
-        .copied()
-        .fold(Rect::from_points(points[0], points[0]), |r, p| {
-            r.union_pt(p)
-        });
-    if rests(&fit, around.center(), diagonal) {
-        return None;
-    }
-    let before = inherited(tree, paint.node, attribute);
-    let own = before
-        .as_deref()
-        .and_then(transform)
-        .unwrap_or(Affine::IDENTITY);
-    let place = paint.place;
-    let value = matrix(
-        inverse(place)? * fit * place * own,
-        decimals(place, diagonal) + 1,
-    );
-    let spot = Spot {
-        chain: Vec::new(),
-        node: paint.node,
-    };
-    Some((spot, vec![Edit::Attribute(attribute, value)]))
+    map: Map<'a>,
 }
 
-/// An attribute of a gradient or of the one it refers to; the default of the units is none.
-fn inherited(tree: &Document<'_>, first: u32, name: &str) -> Option<String> {
-    let mut element = node(tree, first)?;
-    // A chain that comes back to itself ends here.
-    for _ in 0..16 {
-        if let Some(value) = element.attribute(name) {
-            return Some(value.to_owned());
+impl Turning<'_> {
+    /// A gradient or pattern in user units, turned by the affine map that best fits what happens to
+    /// the paths that it paints.
+    fn edit(
+        &self,
+        tree: &Document<'_>,
+        paint: &Paint,
+        pieces: &[&Piece],
+    ) -> Option<(Spot, Vec<Edit>)> {
+        let element = node(tree, paint.node)?;
+        let (units, attribute) = match element.tag_name().name() {
+            "linearGradient" | "radialGradient" => ("gradientUnits", "gradientTransform"),
+            "pattern" => ("patternUnits", "patternTransform"),
+            _ => return None,
+        };
+        if self.inherited(element, units)? != "userSpaceOnUse" {
+            return None;
         }
-        let id = super::scene::referenced(element)?;
-        element = tree.descendants().find(|n| n.attribute("id") == Some(id))?;
+        let placed = |p: &&Piece| {
+            let place = p.place;
+            let points: Vec<Point> = p.path.control_points().map(|c| place * c).collect();
+            points
+        };
+        let points: Vec<Point> = pieces.iter().flat_map(placed).collect();
+        let fit = motion::affine(self.map, &points)?;
+        if rests(&fit, *points.first()?, self.diagonal) {
+            return None;
+        }
+        let before = self.inherited(element, attribute);
+        let own = before.and_then(transform).unwrap_or(Affine::IDENTITY);
+        let place = paint.place;
+        let turned = inverse(place)? * fit * place * own;
+        let value = matrix(turned, decimals(place, self.diagonal) + 1);
+        let spot = Spot {
+            chain: Vec::new(),
+            node: paint.node,
+        };
+        Some((spot, vec![Edit::Attribute(attribute, value)]))
     }
-    None
+
+    /// An attribute of a gradient or of the one it refers to; the default of the units is none.
+    fn inherited<'n>(&'n self, first: Node<'n, '_>, name: &str) -> Option<&'n str> {
+        let mut element = first;
+        // A chain that comes back to itself ends here.
+        for _ in 0..CHAIN {
+            if let Some(value) = element.attribute(name) {
+                return Some(value);
+            }
+            element = *self.named.get(referenced(element)?)?;
+        }
+        None
+    }
 }
 
 /// The box around the paths that are seen.

@@ -1,12 +1,14 @@
 //! The text of a document with some of its elements changed. Every other byte stays.
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 use roxmltree::{Document, Node};
 
-use super::scene::{Spot, node, referenced};
+use super::scene::{Spot, by_id, referenced};
 use super::shapes;
+use crate::error::{Error, Result};
 
 /// What changes in which elements.
 pub(super) type Edits = BTreeMap<Spot, Vec<Edit>>;
@@ -29,15 +31,30 @@ const REMADE: [&str; 5] = [
     "inkscape:connector-curvature",
 ];
 
+/// Bytes of all copies that uses become.
+const COPIED: usize = 256 << 20;
+
 /// The whole text, edited.
-pub(super) fn edited(text: &str, tree: &Document<'_>, edits: &Edits) -> String {
+///
+/// # Errors
+/// [`Error::Unsupported`] where it would become far too large.
+pub(super) fn edited(text: &str, tree: &Document<'_>, edits: &Edits) -> Result<String> {
     if edits.is_empty() {
-        return text.to_owned();
+        return Ok(text.to_owned());
     }
-    let editor = Editor { text, tree, edits };
+    let editor = Editor {
+        text,
+        edits,
+        by_id: by_id(tree),
+        copied: Cell::new(0),
+    };
     let mut splices = Vec::new();
     editor.gather(tree.root(), &[], false, &mut splices);
-    spliced(text, 0..text.len(), splices)
+    if editor.copied.get() > COPIED {
+        let what = "its uses, each with a copy of its own, would make too large a file";
+        return Err(Error::Unsupported(what.into()));
+    }
+    Ok(spliced(text, 0..text.len(), splices))
 }
 
 /// A piece of text in place of another.
@@ -45,8 +62,10 @@ type Splice = (Range<usize>, String);
 
 struct Editor<'a, 'input> {
     text: &'a str,
-    tree: &'a Document<'input>,
     edits: &'a Edits,
+    by_id: BTreeMap<&'a str, Node<'a, 'input>>,
+    /// Bytes of copies so far.
+    copied: Cell<usize>,
 }
 
 impl Editor<'_, '_> {
@@ -89,7 +108,9 @@ impl Editor<'_, '_> {
 
     /// A `use` as a group with a copy of its own.
     fn unfolded(&self, element: Node<'_, '_>, chain: &[u32], copy: bool) -> String {
-        let target = referenced(element).and_then(|id| self.by_id(id));
+        let target = referenced(element)
+            .and_then(|id| self.by_id.get(id))
+            .copied();
         let Some(target) = target else {
             return self.text[element.range()].to_owned();
         };
@@ -125,9 +146,13 @@ impl Editor<'_, '_> {
         chain: &[u32],
         prefix: &str,
     ) -> String {
+        let range = target.range();
+        self.copied.set(self.copied.get() + range.len());
+        if self.copied.get() > COPIED {
+            return String::new();
+        }
         let mut splices = Vec::new();
         self.gather(target, chain, true, &mut splices);
-        let range = target.range();
         let tag = target.tag_name().name();
         if matches!(tag, "symbol" | "svg") {
             for name in ["width", "height"] {
@@ -142,12 +167,6 @@ impl Editor<'_, '_> {
             rename(self.text, target, &format!("{prefix}svg"), &mut splices);
         }
         spliced(self.text, range, splices)
-    }
-
-    fn by_id(&self, id: &str) -> Option<Node<'_, '_>> {
-        let mut all = self.tree.descendants();
-        all.find(|n| n.attribute("id") == Some(id))
-            .and_then(|n| node(self.tree, n.id().get()))
     }
 
     fn change(&self, element: Node<'_, '_>, edit: &Edit, splices: &mut Vec<Splice>) {

@@ -72,7 +72,8 @@ impl Svg {
     /// The document with its drawing deformed.
     ///
     /// # Errors
-    /// [`crate::Error::Numerical`] where the map leads to points that are no numbers.
+    /// [`crate::Error::Numerical`] where the map leads to points that are no numbers;
+    /// [`crate::Error::Unsupported`] where unfolded uses would make too large a file.
     pub fn deformed(&self, map: &dyn Fn(Point) -> Point) -> Result<Self> {
         let tree = source::tree(&self.text)?;
         let mut scene = scene::scene(&tree)?;
@@ -83,7 +84,7 @@ impl Svg {
         };
         let edits = deform::edits(&tree, &scene, deform::diagonal(&scene), &flat)?;
         Ok(Self {
-            text: edit::edited(&self.text, &tree, &edits),
+            text: edit::edited(&self.text, &tree, &edits)?,
         })
     }
 }

@@ -72,7 +72,6 @@ pub(super) struct Whole {
 
 /// A clip path or mask as it was first referred to.
 pub(super) struct Clip {
-    pub node: u32,
     /// The coordinates of what it was referred to from.
     pub place: Affine,
     /// Its paths.
@@ -117,6 +116,9 @@ struct Walk<'a, 'input> {
     scene: Scene,
     drawn: usize,
     segments: usize,
+    /// Numbers of paints and clips by their node.
+    paints: BTreeMap<u32, usize>,
+    clips: BTreeMap<u32, usize>,
 }
 
 /// Reads what a document draws.
@@ -124,16 +126,11 @@ struct Walk<'a, 'input> {
 /// # Errors
 /// [`Error::Input`] where it draws more than the limits allow.
 pub(super) fn scene(tree: &Document<'_>) -> Result<Scene> {
-    let mut by_id = BTreeMap::new();
-    for node in tree.descendants().filter(Node::is_element) {
-        if let Some(id) = node.attribute("id") {
-            by_id.entry(id).or_insert(node);
-        }
-    }
+    let by_id = by_id(tree);
     let root = tree.root_element();
     let window = viewport::root(root);
     let mut walk = Walk {
-        sheets: Sheets::new(tree)?,
+        sheets: Sheets::new(tree),
         by_id,
         scene: Scene {
             pieces: Vec::new(),
@@ -145,6 +142,8 @@ pub(super) fn scene(tree: &Document<'_>) -> Result<Scene> {
         },
         drawn: 0,
         segments: 0,
+        paints: BTreeMap::new(),
+        clips: BTreeMap::new(),
     };
     let here = Here {
         place: window.place,
@@ -162,7 +161,7 @@ pub(super) fn scene(tree: &Document<'_>) -> Result<Scene> {
 impl<'a, 'input> Walk<'a, 'input> {
     /// The children of an element whose own properties count, but not its place if it is the root.
     fn container(&mut self, node: Node<'a, 'input>, here: &Here<'a>, root: bool) -> Result<()> {
-        let own = self.sheets.of(node);
+        let own = self.sheets.of(node)?;
         let mut inside = self.inside(node, &own, here)?;
         if root {
             inside.place = here.place * own_transform(&own);
@@ -215,7 +214,7 @@ impl<'a, 'input> Walk<'a, 'input> {
             "text" | "image" | "foreignObject" => {}
             _ => return Ok(()),
         }
-        let own = self.sheets.of(node);
+        let own = self.sheets.of(node)?;
         let inside = self.inside(node, &own, here)?;
         match name {
             "g" | "a" => self.children(node, &inside),
@@ -285,7 +284,7 @@ impl<'a, 'input> Walk<'a, 'input> {
         inside.place *= Affine::translate((x, y));
         match target.tag_name().name() {
             "symbol" | "svg" => {
-                let own = self.sheets.of(target);
+                let own = self.sheets.of(target)?;
                 let inside = self.inside(target, &own, &inside)?;
                 self.nested(target, &inside, node)
             }
@@ -370,8 +369,7 @@ impl<'a, 'input> Walk<'a, 'input> {
     fn paint(&mut self, value: &str, here: &Here<'a>) -> Option<usize> {
         let node = self.by_id.get(link(value)?)?.id().get();
         let paints = &mut self.scene.paints;
-        let known = paints.iter().position(|p| p.node == node);
-        Some(known.unwrap_or_else(|| {
+        Some(*self.paints.entry(node).or_insert_with(|| {
             paints.push(Paint {
                 node,
                 place: here.place,
@@ -386,7 +384,7 @@ impl<'a, 'input> Walk<'a, 'input> {
             return Ok(None);
         };
         let number = node.id().get();
-        if let Some(known) = self.scene.clips.iter().position(|c| c.node == number) {
+        if let Some(&known) = self.clips.get(&number) {
             let clip = &mut self.scene.clips[known];
             if clip.place != here.place && clip.cuts {
                 clip.cuts = false;
@@ -415,7 +413,7 @@ impl<'a, 'input> Walk<'a, 'input> {
             let text = format!("what {} hides counts as seen", shown(node));
             self.scene.warnings.push(text);
         }
-        let own = self.sheets.of(node);
+        let own = self.sheets.of(node)?;
         let mut inside = here.clone();
         inside.clips.clear();
         inside.chain.clear();
@@ -425,8 +423,8 @@ impl<'a, 'input> Walk<'a, 'input> {
         inside.depth += 1;
         let first = self.scene.pieces.len();
         self.children(node, &inside)?;
+        self.clips.insert(number, self.scene.clips.len());
         self.scene.clips.push(Clip {
-            node: number,
             place: here.place,
             pieces: first..self.scene.pieces.len(),
             cuts: is_clip,
@@ -452,6 +450,17 @@ pub(super) fn referenced<'a>(node: Node<'a, '_>) -> Option<&'a str> {
     let by_name = |a: &roxmltree::Attribute<'_, '_>| a.name() == "href";
     let value = node.attributes().find(by_name)?.value();
     value.trim().strip_prefix('#')
+}
+
+/// The first element with each id.
+pub(super) fn by_id<'a, 'input>(tree: &'a Document<'input>) -> BTreeMap<&'a str, Node<'a, 'input>> {
+    let mut by_id = BTreeMap::new();
+    for node in tree.descendants().filter(Node::is_element) {
+        if let Some(id) = node.attribute("id") {
+            by_id.entry(id).or_insert(node);
+        }
+    }
+    by_id
 }
 
 /// A node by its number in a [`Spot`].

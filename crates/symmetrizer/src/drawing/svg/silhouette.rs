@@ -14,8 +14,8 @@ const FLATNESS: f64 = 2e-5;
 /// Of the drawing's diagonal: its distance from the origin, beyond which too few digits are left.
 const REMOTE: f64 = 1e6;
 
-/// Points of the outline.
-const POINTS: usize = 2_000_000;
+/// Points of all outlines, those of a clip path each time it cuts.
+const POINTS: usize = 4_000_000;
 
 /// Diagonals of the drawing, how far out clip paths are followed.
 const CLIP: f64 = 500.0;
@@ -68,7 +68,7 @@ fn bounds<'a>(pieces: impl Iterator<Item = &'a Piece>) -> Result<Rect> {
                 .iter()
                 .fold(0.0, |m: f64, c| m.max(c.abs()))
         });
-        if far.is_some_and(|far| !(far < FARTHEST)) {
+        if far.is_some_and(|far| far.is_nan() || far >= FARTHEST) {
             let what = format!("a path has coordinates of {FARTHEST:e} or more");
             return Err(Error::input(what, "scale the drawing down"));
         }
@@ -168,12 +168,13 @@ fn region(scene: &Scene, bounds: Rect, rule: &dyn Fn(&Piece) -> Option<Rule>) ->
                 clips[clip] = Some(ground.cut(scene, clip)?);
             }
             if let Some(cut) = &clips[clip] {
+                points += cut.iter().map(Vec::len).sum::<usize>();
                 filled = Regions::common(&filled, cut)?;
             }
         }
         points += filled.iter().map(Vec::len).sum::<usize>();
         if points > POINTS {
-            let what = format!("the outlines have more than {POINTS} points");
+            let what = format!("the outlines and what cuts them have more than {POINTS} points");
             return Err(Error::input(what, "simplify the drawing"));
         }
         all.append(&mut filled);

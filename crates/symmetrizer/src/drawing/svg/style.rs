@@ -8,8 +8,8 @@ use super::source::is_svg;
 use crate::drawing::region::Rule;
 use crate::error::{Error, Result};
 
-/// Rules times elements; each pair is looked at.
-const LOOKS: usize = 20_000_000;
+/// How many pairs of a rule and a drawn element are looked at.
+const LOOKS: usize = 50_000_000;
 
 const NAMES: [&str; 13] = [
     "clip-path",
@@ -28,47 +28,52 @@ const NAMES: [&str; 13] = [
 ];
 
 /// The style sheets of a document.
-pub(super) struct Sheets<'a>(StyleSheet<'a>);
+pub(super) struct Sheets<'a> {
+    sheet: StyleSheet<'a>,
+    looks: usize,
+}
 
 /// The properties that an element itself sets, without what it inherits.
 pub(super) struct Own<'a>([Option<&'a str>; NAMES.len()]);
 
 impl<'a> Sheets<'a> {
-    /// # Errors
-    /// [`Error::Input`] where there are so many rules and elements that matching takes too long.
-    pub fn new(tree: &'a Document<'_>) -> Result<Self> {
+    /// The sheets inside a document.
+    pub fn new(tree: &'a Document<'_>) -> Self {
         let mut sheet = StyleSheet::new();
-        let mut elements = 0;
-        for node in tree.descendants().filter(Node::is_element) {
-            elements += 1;
-            if is_svg(node) && node.tag_name().name() == "style" {
-                sheet.parse_more(node.text().unwrap_or(""));
-            }
+        let styles =
+            |n: &Node<'_, '_>| n.is_element() && is_svg(*n) && n.tag_name().name() == "style";
+        for node in tree.descendants().filter(styles) {
+            sheet.parse_more(node.text().unwrap_or(""));
         }
-        if sheet.rules.len() * elements > LOOKS {
-            let what = format!("{} style rules for {elements} elements", sheet.rules.len());
-            return Err(Error::input(
-                what,
-                "export the drawing with presentation attributes",
-            ));
-        }
-        Ok(Self(sheet))
+        Self { sheet, looks: 0 }
     }
 
     /// The properties of an element: attributes, above them rules, above them its `style`.
-    pub fn of(&self, node: Node<'a, '_>) -> Own<'a> {
+    ///
+    /// # Errors
+    /// [`Error::Input`] where there are so many rules and elements that matching takes too long.
+    pub fn of(&mut self, node: Node<'a, '_>) -> Result<Own<'a>> {
+        self.looks += self.sheet.rules.len();
+        if self.looks > LOOKS {
+            let what = format!(
+                "{} style rules for too many elements",
+                self.sheet.rules.len()
+            );
+            let hint = "export the drawing with presentation attributes";
+            return Err(Error::input(what, hint));
+        }
         let mut own = Own([None; NAMES.len()]);
         for attribute in node.attributes().filter(|a| a.namespace().is_none()) {
             own.set(attribute.name(), attribute.value());
         }
-        let rules = self.0.rules.iter();
+        let rules = self.sheet.rules.iter();
         for rule in rules.filter(|r| r.selector.matches(&Element(node))) {
             let declarations = rule.declarations.iter();
             declarations.for_each(|d| own.set(d.name, d.value));
         }
         let style = node.attribute("style").unwrap_or("");
         DeclarationTokenizer::from(style).for_each(|d| own.set(d.name, d.value));
-        own
+        Ok(own)
     }
 }
 
