@@ -118,6 +118,20 @@ fn uses_that_come_to_differ_become_groups() {
 }
 
 #[test]
+fn uses_may_be_placed_in_any_unit() {
+    let drawing = elements(
+        "<defs><path id='leaf' d='M0 0h10v5h-10z'/></defs><use href='#leaf' x='10%' y='1in'/>\
+         <use href='#leaf' transform='nonsense(\"1' x='30'/>",
+    );
+    let bent = drawing
+        .deformed(&|p| Point::new(p.x + 0.01 * p.y * p.y, p.y, 0.0))
+        .unwrap();
+    has(&bent, "<g transform=\"translate(10 96)\">");
+    has(&bent, "<g transform=\"translate(30 0)\">");
+    faithful(&bent);
+}
+
+#[test]
 fn symbols_and_nested_uses_are_unfolded() {
     let drawing = elements(
         "<symbol id='s' viewBox='0 0 10 10'><g id='in'><rect id='q' width='10' height='10'/></g></symbol>\

@@ -4,10 +4,12 @@ use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use kurbo::Vec2;
 use roxmltree::{Document, Node};
 
-use super::scene::{Spot, by_id, referenced};
-use super::shapes;
+use super::scene::{Scene, Spot, by_id, referenced};
+use super::{shapes, units};
+use crate::drawing::path::write;
 use crate::error::{Error, Result};
 
 /// What changes in which elements.
@@ -34,17 +36,26 @@ const REMADE: [&str; 5] = [
 /// Bytes of all copies that uses become.
 const COPIED: usize = 256 << 20;
 
+/// Of a shift, which is written as exactly as numbers come.
+const DECIMALS: u32 = 9;
+
 /// The whole text, edited.
 ///
 /// # Errors
 /// [`Error::Unsupported`] where it would become far too large.
-pub(super) fn edited(text: &str, tree: &Document<'_>, edits: &Edits) -> Result<String> {
+pub(super) fn edited(
+    text: &str,
+    tree: &Document<'_>,
+    edits: &Edits,
+    scene: &Scene,
+) -> Result<String> {
     if edits.is_empty() {
         return Ok(text.to_owned());
     }
     let editor = Editor {
         text,
         edits,
+        shifts: &scene.shifts,
         by_id: by_id(tree),
         copied: Cell::new(0),
     };
@@ -63,6 +74,7 @@ type Splice = (Range<usize>, String);
 struct Editor<'a, 'input> {
     text: &'a str,
     edits: &'a Edits,
+    shifts: &'a BTreeMap<u32, Vec2>,
     by_id: BTreeMap<&'a str, Node<'a, 'input>>,
     /// Bytes of copies so far.
     copied: Cell<usize>,
@@ -122,18 +134,18 @@ impl Editor<'_, '_> {
         for a in element.attributes() {
             match a.name() {
                 "href" | "x" | "y" | "width" | "height" => {}
-                "transform" => transform = a.value().to_owned() + " ",
+                "transform" if units::transform(a.value()).is_some() => {
+                    transform = a.value().to_owned() + " ";
+                }
+                "transform" => {}
                 "id" if copy => {}
                 _ => attributes += &format!(" {}", &self.text[a.range()]),
             }
         }
-        let at = |name| {
-            element
-                .attribute(name)
-                .unwrap_or("0")
-                .trim_end_matches("px")
-        };
-        transform += &format!("translate({} {})", at("x"), at("y"));
+        let shift = self.shifts.get(&element.id().get()).copied();
+        let number = |v: f64| write::number(v, DECIMALS);
+        let Vec2 { x, y } = shift.unwrap_or_default();
+        transform += &format!("translate({} {})", number(x), number(y));
         let inner = self.copied(target, element, &chain, prefix);
         format!("<{prefix}g{attributes} transform=\"{transform}\">{inner}</{prefix}g>")
     }
@@ -156,7 +168,10 @@ impl Editor<'_, '_> {
         let tag = target.tag_name().name();
         if matches!(tag, "symbol" | "svg") {
             for name in ["width", "height"] {
-                if let Some(value) = used.attribute(name) {
+                let given = used
+                    .attribute(name)
+                    .filter(|v| !v.contains(['"', '&', '<']));
+                if let Some(value) = given {
                     splices.extend(attribute(target, name).map(|r| (r, String::new())));
                     let after = range.start + 1 + qualified(self.text, target).len();
                     splices.push((after..after, format!(" {name}=\"{value}\"")));

@@ -84,7 +84,7 @@ impl Svg {
         };
         let edits = deform::edits(&tree, &scene, deform::diagonal(&scene), &flat)?;
         Ok(Self {
-            text: edit::edited(&self.text, &tree, &edits)?,
+            text: edit::edited(&self.text, &tree, &edits, &scene)?,
         })
     }
 }

@@ -93,6 +93,8 @@ pub(super) struct Scene {
     pub wholes: Vec<Whole>,
     pub clips: Vec<Clip>,
     pub paints: Vec<Paint>,
+    /// By how much each `use` shifts what it shows, in its own coordinates.
+    pub shifts: BTreeMap<u32, kurbo::Vec2>,
     pub warnings: Vec<String>,
     /// The part of the plane that the document shows, drawing coordinates, if it says so.
     pub shown: Option<kurbo::Rect>,
@@ -137,6 +139,7 @@ pub(super) fn scene(tree: &Document<'_>) -> Result<Scene> {
             wholes: Vec::new(),
             clips: Vec::new(),
             paints: Vec::new(),
+            shifts: BTreeMap::new(),
             warnings: Vec::new(),
             shown: window.shown,
         },
@@ -282,6 +285,8 @@ impl<'a, 'input> Walk<'a, 'input> {
         let mut inside = here.clone();
         inside.chain.push(node.id().get());
         inside.place *= Affine::translate((x, y));
+        let shift = kurbo::Vec2::new(x, y);
+        self.scene.shifts.insert(node.id().get(), shift);
         match target.tag_name().name() {
             "symbol" | "svg" => {
                 let own = self.sheets.of(target)?;
