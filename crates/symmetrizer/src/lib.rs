@@ -8,6 +8,7 @@ pub mod cluster;
 pub mod context;
 pub mod deform;
 pub mod detect;
+pub mod drawing;
 pub mod error;
 pub mod field;
 pub mod geom;

@@ -29,6 +29,11 @@ const HOUSE: &[Floor] = &[
     floor(1, "context"),
     floor(1, "geom"),
     floor(10, "shape"),
+    Floor {
+        module: "drawing",
+        floor: 15,
+        only: Some(&["error", "context", "geom", "shape"]),
+    },
     floor(20, "sample"),
     floor(20, "transform"),
     Floor {

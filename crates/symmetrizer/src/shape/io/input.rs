@@ -16,7 +16,7 @@ const SAVE: &str = "save what comes out of it to a file, and name that file";
 /// # Errors
 /// [`Error::Input`] for anything that is no regular file, and from 4 GiB on; [`Error::Io`] where
 /// the system does not let it be read.
-pub(super) fn bytes(path: &Path) -> Result<Vec<u8>> {
+pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>> {
     check(path)?;
     let file = File::open(path).map_err(|e| Error::io(path, e))?;
     let size = file.metadata().map_or(0, |m| m.len());

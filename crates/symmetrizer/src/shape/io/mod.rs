@@ -23,6 +23,7 @@ use std::path::Path;
 use crate::error::{Error, Result};
 use crate::shape::document::{Document, Kept};
 
+pub(crate) use input::bytes as file_bytes;
 pub use whole::Output;
 
 /// A shape file format.
