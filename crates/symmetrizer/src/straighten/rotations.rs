@@ -5,6 +5,8 @@
 //! first row, +1 for the others. The rows that miss it least are the smallest eigenvectors of
 //! sum over edges of w |rho_i - rho_j|^2 + W sum over pairs of c |rho_q - s A rho_p|^2 against a mass.
 
+use nalgebra::DMatrix;
+
 use crate::deform::solver::{Entries, Factorized, SolveError};
 use crate::error::Error;
 use crate::field::SymmetryField;
@@ -23,7 +25,7 @@ const LEAST: f64 = 0.15;
 const VECTORS: usize = 5;
 const ROUNDS: usize = 30;
 /// Squared sine of the angle by which the sought vectors turn in a round, below which they are found.
-const TURNED: f64 = 1e-12;
+const TURNED: f64 = 1e-14;
 /// Shift of the eigenproblem, against a singular matrix.
 const SHIFT: f64 = 1e-6;
 
@@ -130,15 +132,17 @@ fn smallest(
             .collect()
     };
     let mut block: Vec<Vec<f64>> = (0..VECTORS).map(start).collect();
+    orthonormalize(&mut block, mass);
     for _ in 0..ROUNDS {
-        let before = block[..wanted].to_vec();
+        let before = block.clone();
         for x in &mut block {
             x.iter_mut().zip(mass).for_each(|(x, m)| *x *= m);
             matrix.solve(x)?;
         }
+        block = ritz(&before, &block, mass);
         orthonormalize(&mut block, mass);
         let turned = |x: &Vec<f64>| {
-            let shares = before.iter().map(|y| dot(x, y, mass).powi(2));
+            let shares = before[..wanted].iter().map(|y| dot(x, y, mass).powi(2));
             1.0 - shares.sum::<f64>()
         };
         if block[..wanted].iter().all(|x| turned(x) < TURNED) {
@@ -151,6 +155,26 @@ fn smallest(
 
 fn dot(a: &[f64], b: &[f64], mass: &[f64]) -> f64 {
     a.iter().zip(b).zip(mass).map(|((a, b), m)| a * b * m).sum()
+}
+
+/// Rayleigh and Ritz: the combinations of what the vectors `before` became, those that grew most first. By
+/// itself each vector would come no faster than the gap to the next one lets it.
+fn ritz(before: &[Vec<f64>], after: &[Vec<f64>], mass: &[f64]) -> Vec<Vec<f64>> {
+    let product = |i: usize, j: usize| dot(&before[i], &after[j], mass);
+    let small = DMatrix::from_fn(before.len(), before.len(), |i, j| {
+        (product(i, j) + product(j, i)) / 2.0
+    });
+    let eigen = small.symmetric_eigen();
+    let mut order: Vec<usize> = (0..before.len()).collect();
+    order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
+    let combined = |k: &usize| {
+        let mut x = vec![0.0; mass.len()];
+        for (y, c) in after.iter().zip(eigen.eigenvectors.column(*k).iter()) {
+            x.iter_mut().zip(y).for_each(|(x, y)| *x += c * y);
+        }
+        x
+    };
+    order.iter().map(combined).collect()
 }
 
 /// Gram and Schmidt against the mass, the largest first: inverse iteration has grown the smallest
