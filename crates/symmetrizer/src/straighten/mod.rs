@@ -10,15 +10,14 @@ mod rotations;
 mod settle;
 mod slopes;
 
-use crate::deform::control::{decimated, stiffness_on};
+use crate::deform::Tie;
 use crate::deform::elastic::Motion;
 use crate::deform::poisson::integrate_tied;
-use crate::deform::{Tie, carry};
 use crate::error::Result;
 use crate::field::SymmetryField;
 use crate::field::grow::Land;
 use crate::geom::{Matrix3, Point, Vector};
-use crate::shape::{ClosestPoint, Surface};
+use crate::shape::Surface;
 use crate::transform::Plane;
 use blend::Blend;
 
@@ -40,27 +39,14 @@ pub struct Straightened {
 
 /// Weight of a pair beside a vertex's edges.
 const PAIR: f64 = 0.3;
-/// The solve is made on a copy of about this many faces where the surface has many more, and the rest is
-/// carried along.
-const FULL: usize = 100_000;
 
 /// The surface with `bend` undone.
 ///
 /// # Errors
 /// [`crate::Error::Numerical`].
 pub fn straighten(land: &Land<'_>, bend: &Bend) -> Result<Straightened> {
-    let surface = land.surface;
-    let Some(copy) = decimated(surface, FULL)? else {
-        return Ok(placed(surface, solve(land, &bend.field, &bend.turns)?));
-    };
-    let control = &copy.surface;
-    let closest = ClosestPoint::new(control);
-    let samples = land.samples.placed_on(&closest);
-    let stiffness = land.stiffness.map(|s| stiffness_on(control, surface, s));
-    let coarse =
-        Land::new(control, &closest, &samples, land.reach).with_stiffness(stiffness.as_deref());
-    let solved = solve(&coarse, &bend.field.placed_on(&closest), &bend.turns)?;
-    Ok(placed(surface, carry(surface, control, &solved)))
+    let positions = solve(land, &bend.field, &bend.turns)?;
+    Ok(placed(land.surface, positions))
 }
 
 /// Vertex positions of the surface with the samples turned by `turns` and the pairs of `field` opposite each
