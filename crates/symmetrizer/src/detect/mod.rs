@@ -22,9 +22,11 @@ use crate::context::Context;
 use crate::error::Result;
 use crate::pair::{Pair, PairParams, likes, mirror_pairs, rigid_pairs};
 use crate::patch::{Ground, PatchParams, Refusal, Symmetry};
+use crate::sample::outline::sample_outline;
 use crate::sample::samples::Describer;
 use crate::sample::{SampleParams, Samples, probes, sample};
 use crate::shape::fairing::faired;
+use crate::shape::wall::Wall;
 use crate::shape::{ClosestPoint, Surface};
 use crate::slip::{Continuous, SlipParams, continuous};
 use crate::transform::{Class, TransformSpace};
@@ -121,6 +123,39 @@ pub fn detect(
     let surface = fair.as_ref().unwrap_or(surface);
     let describer = Describer::new(surface, if fair.is_some() { WIDENING } else { 1.0 });
     let samples = ctx.stage("sample", |ctx| sample(&describer, &params.sample, ctx))?;
+    find(&describer, samples, params, ctx)
+}
+
+/// Finds the mirror lines of an outline, partial ones too, as mirrors at right angles to its plane. Motions and
+/// continuous symmetries of the plane are not looked for yet.
+///
+/// # Errors
+/// As [`detect`].
+pub fn detect_in_plane(
+    wall: &Wall,
+    params: &DetectParams,
+    ctx: &mut Context<'_>,
+) -> Result<Detection> {
+    let params = DetectParams {
+        wanted: Wanted::mirrors(),
+        slip: None,
+        ..params.clone()
+    };
+    let describer = Describer::of_outline(wall);
+    let samples = ctx.stage("sample", |ctx| {
+        sample_outline(&describer, wall, &params.sample, ctx)
+    })?;
+    find(&describer, samples, &params, ctx)
+}
+
+/// What there is to be found among `samples` of the surface of `describer`.
+fn find(
+    describer: &Describer<'_>,
+    samples: Samples,
+    params: &DetectParams,
+    ctx: &mut Context<'_>,
+) -> Result<Detection> {
+    let surface = describer.surface;
     let space = TransformSpace::new(samples.list.iter().map(|s| (s.position, 1.0)));
     let closest = ClosestPoint::new(surface);
     let ground = Ground {
@@ -136,13 +171,13 @@ pub fn detect(
     let probes = ctx.stage("probe", |ctx| {
         let rigid = classes.iter().any(|&c| c != Class::Mirror);
         let count = if rigid { params.sample.count } else { 0 };
-        Ok(probes(&describer, &samples, count, &mut ctx.rng("probe")))
+        Ok(probes(describer, &samples, count, &mut ctx.rng("probe")))
     })?;
     let likes = ctx.stage("pair", |_| Ok(likes(&probes, &params.pair)))?;
     let surroundings = Surroundings {
         ground: &ground,
         space: &space,
-        describer: &describer,
+        describer,
         continuous: &continuous,
         params,
     };

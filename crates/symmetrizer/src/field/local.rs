@@ -64,16 +64,16 @@ pub fn fit(
                     }
                 }
             }
-            robust(&mut pairs, local)
+            robust(&mut pairs, local, samples.ambient)
         })
         .collect()
 }
 
-fn robust(pairs: &mut [Correspondence], local: Local) -> Option<Isometry> {
+fn robust(pairs: &mut [Correspondence], local: Local, ambient: Ambient) -> Option<Isometry> {
     if pairs.len() < LEAST {
         return None;
     }
-    let first = once(pairs, local)?;
+    let first = once(pairs, local, ambient)?;
     let missed: Vec<f64> = pairs
         .iter()
         .map(|c| (first.apply(&c.p) - c.q).norm())
@@ -82,12 +82,12 @@ fn robust(pairs: &mut [Correspondence], local: Local) -> Option<Isometry> {
     for (c, r) in pairs.iter_mut().zip(&missed) {
         c.weight /= 1.0 + (r / (ROBUST * middle + 1e-6)).powi(4);
     }
-    once(pairs, local)
+    once(pairs, local, ambient)
 }
 
-fn once(pairs: &[Correspondence], local: Local) -> Option<Isometry> {
+fn once(pairs: &[Correspondence], local: Local, ambient: Ambient) -> Option<Isometry> {
     match local {
-        Local::Mirror => optimal_mirror(pairs, Ambient::Space).map(|f| Isometry::mirror(&f.plane)),
-        Local::Improper => optimal_improper(pairs, None, Ambient::Space).map(|f| f.isometry),
+        Local::Mirror => optimal_mirror(pairs, ambient).map(|f| Isometry::mirror(&f.plane)),
+        Local::Improper => optimal_improper(pairs, None, ambient).map(|f| f.isometry),
     }
 }

@@ -11,6 +11,16 @@ pub type Vector = nalgebra::Vector3<f64>;
 /// A 3x3 matrix.
 pub type Matrix3 = nalgebra::Matrix3<f64>;
 
+/// Where the shapes live. In the plane the z axis is kept: a 3x3 solve on planar pairs would find
+/// the useless mirror z -> -z.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ambient {
+    /// z = 0.
+    Plane,
+    /// All of space.
+    Space,
+}
+
 /// The cross-product matrix: `skew(a) * b == a x b`.
 pub fn skew(a: &Vector) -> Matrix3 {
     a.cross_matrix()

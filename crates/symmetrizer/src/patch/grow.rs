@@ -10,7 +10,7 @@ use crate::patch::settle::{NOWHERE, Settled, reach, settled};
 use crate::patch::symmetry::{Refusal, Symmetry};
 use crate::sample::Samples;
 use crate::sample::samples::Describer;
-use crate::transform::{Ambient, Class, Correspondence, Isometry, TransformSpace, optimal_mirror};
+use crate::transform::{Class, Correspondence, Isometry, TransformSpace, optimal_mirror};
 
 fn sorted(mut samples: Vec<u32>) -> Vec<u32> {
     samples.sort_unstable();
@@ -136,5 +136,5 @@ fn start(
             weight: v.weight,
         })
         .collect();
-    optimal_mirror(&votes, Ambient::Space).map_or_else(mean, |fit| Isometry::mirror(&fit.plane))
+    optimal_mirror(&votes, samples.ambient).map_or_else(mean, |fit| Isometry::mirror(&fit.plane))
 }

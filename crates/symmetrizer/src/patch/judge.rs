@@ -10,7 +10,7 @@ use crate::patch::refine::{Contact, firmness};
 use crate::patch::symmetry::{PatchPair, Symmetry};
 use crate::sample::Sample;
 use crate::sample::samples::Describer;
-use crate::transform::{Ambient, Class, Correspondence, Isometry, MirrorFit, optimal_mirror};
+use crate::transform::{Class, Correspondence, Isometry, MirrorFit, optimal_mirror};
 
 /// A patch to be judged.
 pub struct Grown {
@@ -236,7 +236,7 @@ pub fn mirror_of(ground: &Ground<'_>, pairs: &[PatchPair]) -> Option<MirrorFit> 
             weight: 1.0,
         })
         .collect();
-    optimal_mirror(&pairs, Ambient::Space)
+    optimal_mirror(&pairs, ground.samples.ambient)
 }
 
 /// The median, over the pairs, of the share of all samples that look more like the sample than what

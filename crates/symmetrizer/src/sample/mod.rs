@@ -2,6 +2,7 @@
 
 pub mod blue_noise;
 pub mod crisp;
+pub mod outline;
 pub mod probes;
 pub mod relief;
 pub mod samples;

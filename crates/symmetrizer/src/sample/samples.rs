@@ -4,14 +4,16 @@ use rayon::prelude::*;
 
 use crate::context::Context;
 use crate::error::{Error, Result};
-use crate::geom::{Point, PointIndex, Vector, any_orthogonal};
+use crate::geom::{Ambient, Point, PointIndex, Vector, any_orthogonal};
 use crate::sample::blue_noise::blue_noise;
 use crate::sample::crisp::Corners;
+use crate::sample::outline;
 use crate::sample::relief::{Frame, Harmonics, Relief};
 use crate::sample::signature::{Signature, base_radius, describe};
 use crate::shape::ClosestPoint;
 use crate::shape::curvature::Cloud;
 use crate::shape::surface::{Surface, SurfacePoint};
+use crate::shape::wall::Wall;
 
 /// How the surface is sampled.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -59,6 +61,8 @@ pub struct Samples {
     pub area: f64,
     /// Radius r0 of the smallest curvature fit, fraction of L.
     pub radius: f64,
+    /// Where the shape lives.
+    pub ambient: Ambient,
     /// For each sample the samples next to it on the surface.
     pub neighbors: Vec<Vec<u32>>,
 }
@@ -97,6 +101,8 @@ pub struct Describer<'a> {
     cloud: Cloud,
     corners: Corners,
     harmonics: Harmonics,
+    /// The wall that the surface is, where it is one.
+    wall: Option<&'a Wall>,
     /// Radius of the smallest curvature fit, fraction of L.
     r0: f64,
 }
@@ -110,13 +116,32 @@ impl<'a> Describer<'a> {
             cloud: Cloud::new(surface, r0 / 4.0),
             corners: Corners::new(surface),
             harmonics: Harmonics::new(),
+            wall: None,
             r0,
         }
     }
 
+    /// For points of an outline.
+    pub fn of_outline(wall: &'a Wall) -> Self {
+        Self {
+            wall: Some(wall),
+            ..Self::new(&wall.surface, 1.0)
+        }
+    }
+
+    /// Radius of the smallest curvature fit, fraction of L.
+    pub fn radius(&self) -> f64 {
+        self.r0
+    }
+
     /// The sample at a surface point.
     pub fn sample(&self, at: &SurfacePoint) -> Sample {
-        let (signature, e1, n) = describe(self.surface, &self.cloud, at, self.r0);
+        let (mut signature, mut e1, n) = describe(self.surface, &self.cloud, at, self.r0);
+        if let Some(wall) = self.wall {
+            let (ring, along) = wall.along(at);
+            signature = outline::signature(wall, ring, along, self.r0);
+            e1 = None;
+        }
         let frame = Frame {
             n,
             e1: any_orthogonal(&n),
@@ -160,6 +185,7 @@ pub fn sample(
         list,
         spacing,
         radius: describer.r0,
+        ambient: Ambient::Space,
         neighbors,
     })
 }

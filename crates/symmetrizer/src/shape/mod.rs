@@ -15,6 +15,7 @@ pub mod surface;
 mod triangles_cross;
 pub mod triangulate;
 pub mod validate;
+pub mod wall;
 pub mod working;
 
 pub use closest::{ClosestPoint, Hit};

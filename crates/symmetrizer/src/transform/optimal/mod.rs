@@ -17,18 +17,9 @@ pub use mirror::{MirrorFit, optimal_mirror};
 pub use orthogonal::{FramePair, Frames};
 pub use rigid::{optimal_half_turn, optimal_rigid, optimal_translation};
 
+pub use crate::geom::Ambient;
 use crate::geom::{Matrix3, Point, Vector, sorted_eigen};
 use crate::transform::isometry::Isometry;
-
-/// Where the shapes live. In the plane the z axis is kept: a 3x3 solve on planar pairs would find
-/// the useless mirror z -> -z.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ambient {
-    /// z = 0.
-    Plane,
-    /// All of space.
-    Space,
-}
 
 /// A weighted pair of points: a symmetry should carry p onto q; a mirror, a half-turn and an
 /// inversion then exchange them.
