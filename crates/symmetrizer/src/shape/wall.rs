@@ -102,7 +102,7 @@ impl Wall {
         let edge = at.face as usize / 2;
         let ring = self.rings.partition_point(|r| r.end <= edge);
         let [_, b, c] = at.bary;
-        let t = if at.face % 2 == 0 { b + c } else { b };
+        let t = if at.face.is_multiple_of(2) { b + c } else { b };
         (ring, self.starts[edge] + t * self.lengths[edge])
     }
 
