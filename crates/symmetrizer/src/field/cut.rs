@@ -2,6 +2,7 @@
 
 use crate::field::Partner;
 use crate::field::grow::Land;
+use crate::field::pieces::pieces;
 use crate::transform::Isometry;
 
 /// Neighbours' maps that take a sample to places further apart than this disagree, fraction of L.
@@ -17,9 +18,16 @@ pub fn torn(land: &Land<'_>, partners: &mut [Option<Partner>], maps: &[Option<Is
         let x = &land.samples.list[a as usize].position;
         Some((s.apply(x) - t.apply(x)).norm() <= APART)
     };
-    let (piece, sizes) = pieces(land, partners, &agree);
-    let largest = (0..sizes.len()).max_by_key(|&k| sizes[k]);
-    let mut meets = vec![false; sizes.len()];
+    let paired = |s: u32| partners[s as usize].is_some();
+    let pieces = pieces(&land.reach.neighbors, paired, |a, b| {
+        agree(a, b) == Some(true)
+    });
+    let mut piece = vec![None; partners.len()];
+    for (k, samples) in pieces.iter().enumerate() {
+        samples.iter().for_each(|&s| piece[s as usize] = Some(k));
+    }
+    let largest = (0..pieces.len()).max_by_key(|&k| pieces[k].len());
+    let mut meets = vec![false; pieces.len()];
     for a in 0..partners.len() as u32 {
         for &b in &land.reach.neighbors[a as usize] {
             let (Some(p), Some(q)) = (piece[a as usize], piece[b as usize]) else {
@@ -40,36 +48,4 @@ pub fn torn(land: &Land<'_>, partners: &mut [Option<Partner>], maps: &[Option<Is
         }
     }
     any
-}
-
-/// The connected piece of each paired sample, edges across which maps disagree left out, and their sizes.
-fn pieces(
-    land: &Land<'_>,
-    partners: &[Option<Partner>],
-    agree: &impl Fn(u32, u32) -> Option<bool>,
-) -> (Vec<Option<usize>>, Vec<usize>) {
-    let mut piece: Vec<Option<usize>> = vec![None; partners.len()];
-    let mut sizes = Vec::new();
-    for start in 0..partners.len() as u32 {
-        if partners[start as usize].is_none() || piece[start as usize].is_some() {
-            continue;
-        }
-        let id = sizes.len();
-        let mut list = vec![start];
-        piece[start as usize] = Some(id);
-        let mut at = 0;
-        while at < list.len() {
-            let a = list[at];
-            for &b in &land.reach.neighbors[a as usize] {
-                let free = partners[b as usize].is_some() && piece[b as usize].is_none();
-                if free && agree(a, b) == Some(true) {
-                    piece[b as usize] = Some(id);
-                    list.push(b);
-                }
-            }
-            at += 1;
-        }
-        sizes.push(list.len());
-    }
-    (piece, sizes)
 }

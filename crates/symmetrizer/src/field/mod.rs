@@ -6,6 +6,7 @@
 pub mod cut;
 pub mod grow;
 pub mod local;
+mod pieces;
 pub mod reach;
 pub mod seeds;
 pub mod trust;

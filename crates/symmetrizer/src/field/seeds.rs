@@ -2,6 +2,7 @@
 
 use crate::field::Partner;
 use crate::field::grow::Land;
+use crate::field::pieces::pieces;
 use crate::transform::Isometry;
 
 /// Distances within which a mirror claims a sample, fractions of L, tried in turn.
@@ -25,36 +26,12 @@ pub fn seeds(land: &Land<'_>, mirrors: &[Isometry], claim: f64) -> Vec<Option<Pa
             }
         }
     }
-    for piece in pieces(land, &best) {
+    let mirror = |s: u32| best[s as usize].map(|(m, _)| m);
+    let same = |a, b| mirror(a) == mirror(b);
+    for piece in pieces(&land.reach.neighbors, |s| mirror(s).is_some(), same) {
         if piece.len() < LEAST {
             piece.iter().for_each(|&s| best[s as usize] = None);
         }
     }
     best.into_iter().map(|b| b.map(|(_, q)| q)).collect()
-}
-
-/// Connected samples under the same mirror.
-fn pieces(land: &Land<'_>, best: &[Option<(usize, Partner)>]) -> Vec<Vec<u32>> {
-    let mut seen = vec![false; best.len()];
-    let mut pieces = Vec::new();
-    for start in 0..best.len() {
-        let Some((mirror, _)) = best[start].filter(|_| !seen[start]) else {
-            continue;
-        };
-        seen[start] = true;
-        let mut piece = vec![start as u32];
-        let mut at = 0;
-        while at < piece.len() {
-            for &n in &land.reach.neighbors[piece[at] as usize] {
-                let same = best[n as usize].is_some_and(|(m, _)| m == mirror);
-                if same && !seen[n as usize] {
-                    seen[n as usize] = true;
-                    piece.push(n);
-                }
-            }
-            at += 1;
-        }
-        pieces.push(piece);
-    }
-    pieces
 }

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::field::grow::Land;
+use crate::field::pieces::pieces;
 use crate::field::{Partner, SymmetryField};
 use crate::geom::median;
 use crate::sample::Sample;
@@ -141,29 +142,12 @@ impl Trust {
 
 /// Which samples belong to the largest connected piece where `share` is not 0.
 fn largest_piece(neighbors: &[Vec<u32>], share: &[f64]) -> Vec<bool> {
-    let mut seen: Vec<bool> = share.iter().map(|s| *s == 0.0).collect();
-    let mut largest = Vec::new();
-    for start in 0..share.len() {
-        if seen[start] {
-            continue;
-        }
-        seen[start] = true;
-        let mut piece = vec![start];
-        let mut at = 0;
-        while at < piece.len() {
-            for &n in &neighbors[piece[at]] {
-                if !std::mem::replace(&mut seen[n as usize], true) {
-                    piece.push(n as usize);
-                }
-            }
-            at += 1;
-        }
-        if piece.len() > largest.len() {
-            largest = piece;
-        }
-    }
+    let pieces = pieces(neighbors, |s| share[s as usize] > 0.0, |_, _| true);
+    // The first of several.
+    let largest = pieces.into_iter().rev().max_by_key(Vec::len);
     let mut member = vec![false; share.len()];
-    largest.into_iter().for_each(|s| member[s] = true);
+    let largest = largest.into_iter().flatten();
+    largest.for_each(|s| member[s as usize] = true);
     member
 }
 
