@@ -11,6 +11,7 @@ pub mod fairing;
 pub mod io;
 pub mod mesh;
 pub mod models;
+pub mod sheet;
 pub mod surface;
 mod triangles_cross;
 pub mod triangulate;

@@ -99,11 +99,40 @@ impl Wall {
 
     /// On which ring a point of the wall lies, and at which length from its start, fraction of L.
     pub fn along(&self, at: &SurfacePoint) -> (usize, f64) {
-        let edge = at.face as usize / 2;
-        let ring = self.rings.partition_point(|r| r.end <= edge);
+        let (edge, t) = Self::on_edge(at);
+        (self.ring(edge), self.starts[edge] + t * self.lengths[edge])
+    }
+
+    /// On which edge a point of the wall lies, and at which share of it.
+    pub fn on_edge(at: &SurfacePoint) -> (usize, f64) {
         let [_, b, c] = at.bary;
         let t = if at.face.is_multiple_of(2) { b + c } else { b };
-        (ring, self.starts[edge] + t * self.lengths[edge])
+        (at.face as usize / 2, t)
+    }
+
+    /// The number of edges.
+    pub fn edges(&self) -> usize {
+        self.starts.len()
+    }
+
+    /// The edge that follows an edge on its ring.
+    pub fn next(&self, edge: usize) -> usize {
+        let ring = &self.rings[self.ring(edge)];
+        if edge + 1 == ring.end {
+            ring.start
+        } else {
+            edge + 1
+        }
+    }
+
+    /// Where an edge starts.
+    pub fn start(&self, edge: usize) -> Point {
+        let x = &self.surface.positions[2 * edge];
+        Point::new(x.x, x.y, 0.0)
+    }
+
+    fn ring(&self, edge: usize) -> usize {
+        self.rings.partition_point(|r| r.end <= edge)
     }
 
     /// The place of the outline at the length `along` from the start of a ring.
