@@ -8,6 +8,7 @@ use crate::field::local::{Local, fit};
 use crate::field::{Partner, Reach, SymmetryField};
 use crate::geom::{Point, PointIndex, Vector};
 use crate::sample::Samples;
+use crate::shape::wall::Wall;
 use crate::shape::{ClosestPoint, Surface};
 use crate::transform::Isometry;
 
@@ -23,6 +24,8 @@ pub struct Land<'a> {
     pub reach: &'a Reach,
     /// Stiffness of each face, where it is not 1 everywhere.
     pub stiffness: Option<&'a [f64]>,
+    /// The wall that the surface is, where it is one.
+    pub wall: Option<&'a Wall>,
     index: PointIndex<3>,
 }
 
@@ -64,12 +67,18 @@ impl<'a> Land<'a> {
             samples,
             reach,
             stiffness: None,
+            wall: None,
         }
     }
 
     /// The same with a stiffness for each face.
     pub fn with_stiffness(self, stiffness: Option<&'a [f64]>) -> Self {
         Self { stiffness, ..self }
+    }
+
+    /// The same over a wall.
+    pub fn with_wall(self, wall: Option<&'a Wall>) -> Self {
+        Self { wall, ..self }
     }
 
     /// Stiffness between two samples: the mean of theirs.

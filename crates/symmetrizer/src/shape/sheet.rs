@@ -162,6 +162,28 @@ impl Edges {
     }
 }
 
+/// The inside of closed rings as a triangulation of their points alone, numbered over all rings.
+///
+/// # Errors
+/// [`Error::Input`] for coordinates that are too large or no numbers.
+pub fn between(rings: &[Vec<Point>]) -> Result<Surface> {
+    let mut ends = Vec::new();
+    for ring in rings {
+        let (first, count) = (ends.len(), ring.len());
+        ends.extend((0..count).map(|k| [first + k, first + (k + 1) % count]));
+    }
+    let positions: Vec<Point> = rings.iter().flatten().copied().collect();
+    let places = positions.iter().map(|x| Point2::new(x.x, x.y)).collect();
+    let edges = Edges { places, ends };
+    let delaunay = edges.delaunay(&edges.places)?;
+    // Two samples at one place, where rings touch, would shift the numbers.
+    let triangles = match delaunay.num_vertices() == positions.len() {
+        true => inside(&delaunay),
+        false => Vec::new(),
+    };
+    Ok(Surface::new(positions, triangles.into()))
+}
+
 /// The triangles inside: those behind an odd number of edges of the outline, counted from without.
 fn inside(delaunay: &Delaunay) -> Vec<[u32; 3]> {
     let mut parity: Vec<Option<bool>> = vec![None; delaunay.num_all_faces()];

@@ -66,6 +66,25 @@ impl Wall {
         })
     }
 
+    /// The same wall with its vertices at other positions, in the same working coordinates.
+    pub fn moved(&self, positions: Vec<Point>) -> Self {
+        let surface = self.surface.with_positions(positions);
+        let mut moved = Self {
+            surface,
+            ..self.clone()
+        };
+        for ring in &self.rings {
+            let mut along = 0.0;
+            for edge in ring.clone() {
+                let length = (moved.start(moved.next(edge)) - moved.start(edge)).norm();
+                moved.starts[edge] = along;
+                moved.lengths[edge] = length;
+                along += length;
+            }
+        }
+        moved
+    }
+
     /// The length of a ring, fraction of L.
     pub fn length(&self, ring: usize) -> f64 {
         let range = &self.rings[ring];

@@ -10,11 +10,16 @@ use crate::geom::{Vector, skew};
 /// What is added to the diagonal for a turn, L^2, and for a way: what nothing holds stays.
 const RIDGE: [f64; 2] = [1e-9, 1e-6];
 
+/// The same for what would lead out of the plane.
+const HELD: f64 = 1e9;
+
 /// Sums of squares that are linear in the twists.
 pub struct Equations {
     /// Lower blocks: column, row.
     blocks: BTreeMap<(u32, u32), Matrix6<f64>>,
     right: Vec<Twist>,
+    /// Whether the motions stay in the plane.
+    flat: bool,
 }
 
 /// How far the point at `arm` from a motion's centre goes along `direction`, as a row over its twist:
@@ -58,9 +63,10 @@ impl Spring {
 }
 
 impl Equations {
-    /// Of `count` motions.
-    pub fn new(count: usize) -> Self {
+    /// Of `count` motions, which stay in the plane where they are `flat`.
+    pub fn new(count: usize, flat: bool) -> Self {
         Self {
+            flat,
             blocks: BTreeMap::new(),
             right: vec![Twist::zeros(); count],
         }
@@ -121,7 +127,12 @@ impl Equations {
             let own = self.blocks.get(&(j as u32, j as u32));
             for c in 0..6 {
                 for r in c..6 {
-                    let ridge = if r == c { RIDGE[c / 3] } else { 0.0 };
+                    let held = self.flat && [0, 1, 5].contains(&c);
+                    let ridge = match (r == c, held) {
+                        (false, _) => 0.0,
+                        (true, false) => RIDGE[c / 3],
+                        (true, true) => HELD,
+                    };
                     rows.push(6 * j + r);
                     values.push(own.map_or(0.0, |b| b[(r, c)]) + ridge);
                 }
@@ -144,7 +155,7 @@ mod tests {
     fn two_points_meet_half_way() {
         // Two motions, each with a point above its centre, 1 apart along x.
         let arms = [Vector::y(), Vector::y()];
-        let mut rows = Equations::new(2);
+        let mut rows = Equations::new(2, false);
         for axis in 0..3 {
             let e = Vector::ith(axis, 1.0);
             rows.add(
@@ -155,7 +166,7 @@ mod tests {
         }
         let mut spring = Spring::default();
         spring.add(arms, Vector::x(), 1.0);
-        let mut equations = Equations::new(2);
+        let mut equations = Equations::new(2, false);
         equations.add_spring([0, 1], &spring);
         let same = rows.solve().expect("positive definite");
         let found = equations.solve().expect("positive definite");
@@ -173,7 +184,7 @@ mod tests {
 
     #[test]
     fn one_motion_may_be_asked_twice() {
-        let mut equations = Equations::new(1);
+        let mut equations = Equations::new(1, false);
         let row = along(&Vector::x(), &Vector::zeros());
         equations.add([(0, row), (0, row)], 1.0, 1.0);
         let found = equations.solve().expect("positive definite");

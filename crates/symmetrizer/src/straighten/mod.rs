@@ -9,10 +9,10 @@ mod pose;
 mod rotations;
 mod settle;
 mod slopes;
+mod turned;
 
 use crate::deform::Tie;
 use crate::deform::elastic::Motion;
-use crate::deform::poisson::integrate_tied;
 use crate::error::Result;
 use crate::field::SymmetryField;
 use crate::field::grow::Land;
@@ -20,6 +20,7 @@ use crate::geom::{Matrix3, Point, Vector};
 use crate::shape::Surface;
 use crate::transform::Plane;
 use blend::Blend;
+use turned::turned;
 
 pub use bend::Bend;
 pub use params::{StraightenParams, When};
@@ -64,7 +65,7 @@ fn solve(land: &Land<'_>, field: &SymmetryField, turns: &[Matrix3]) -> Result<Ve
             })
         })
         .collect();
-    integrate_tied(land.surface, &at_vertices, land.stiffness, &ties)
+    turned(land, land.surface, &at_vertices, &ties)
 }
 
 /// Positions whose mirror is x = 0, moved over `surface`.

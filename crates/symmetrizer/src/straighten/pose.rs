@@ -6,7 +6,6 @@
 use rayon::prelude::*;
 
 use crate::deform::elastic::Motion;
-use crate::deform::poisson::integrate;
 use crate::deform::smooth::SmoothField;
 use crate::deform::solver::{Entries, SolveError};
 use crate::error::{Error, Result};
@@ -17,6 +16,7 @@ use crate::sample::Sample;
 use crate::shape::{ClosestPoint, Surface, SurfacePoint};
 use crate::straighten::bend::shared;
 use crate::straighten::blend::Blend;
+use crate::straighten::turned::turned;
 use crate::straighten::{Bend, Straightened};
 use crate::transform::{Isometry, Plane};
 
@@ -67,7 +67,7 @@ pub fn bend_again(
     let turns = followed(land, &bend.field, &shared(&bend.turns, &bend.field))?;
     let back: Vec<Matrix3> = turns.iter().map(back).collect();
     let turns = Blend::new(land.surface, land.samples).rotations(&back);
-    let bent = integrate(symmetric, &turns, land.stiffness, &[])?;
+    let bent = turned(land, symmetric, &turns, &[])?;
     let mirror = Isometry::mirror(plane);
     let closest = ClosestPoint::new(symmetric);
     let normals: Vec<Vector> = turns.iter().map(|turn| turn * plane.normal).collect();
@@ -106,11 +106,9 @@ pub fn bend_again(
 fn followed(land: &Land<'_>, field: &SymmetryField, turns: &[Matrix3]) -> Result<Vec<Matrix3>> {
     let spread = || -> std::result::Result<Vec<Matrix3>, SolveError> {
         let mut entries = Entries::default();
-        for (i, near) in land.reach.neighbors.iter().enumerate() {
-            for j in near.iter().map(|&j| j as usize).filter(|&j| i > j) {
-                let w = land.firmness([i as u32, j as u32]);
-                entries.add_square(&[(i, 1.0), (j, -1.0)], w);
-            }
+        for &([i, j], w) in &land.reach.edges {
+            let w = w * land.firmness([i, j]);
+            entries.add_square(&[(j as usize, 1.0), (i as usize, -1.0)], w);
         }
         let held = |(s, q): (&Sample, &Option<Partner>)| {
             let away = q.map(|q| (q.position - s.position).norm() / 2.0);

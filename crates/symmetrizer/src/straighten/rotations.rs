@@ -11,7 +11,7 @@ use crate::deform::solver::{Entries, Factorized, SolveError};
 use crate::error::Error;
 use crate::field::SymmetryField;
 use crate::field::grow::Land;
-use crate::geom::{Matrix3, Vector, nearest_orthogonal};
+use crate::geom::{Ambient, Matrix3, Vector, nearest_orthogonal};
 
 /// W, beside this much for all edges of a sample.
 const PAIRS: f64 = 3.0;
@@ -42,14 +42,18 @@ pub fn solved(land: &Land<'_>, field: &SymmetryField) -> Result<Vec<Matrix3>, Er
 }
 
 fn rotations(land: &Land<'_>, field: &SymmetryField) -> Result<Vec<Matrix3>, SolveError> {
-    let (first, others) = rayon::join(|| rows(land, field, -1.0, 1), || rows(land, field, 1.0, 2));
+    // In the plane the last row is known.
+    let plane = land.samples.ambient == Ambient::Plane;
+    let wanted = if plane { 1 } else { 2 };
+    let (first, others) = rayon::join(
+        || rows(land, field, -1.0, 1),
+        || rows(land, field, 1.0, wanted),
+    );
     let (first, others) = (first?, others?);
     let matrix = |i: usize| {
-        Matrix3::from_rows(&[
-            first[0][i].transpose(),
-            others[0][i].transpose(),
-            others[1][i].transpose(),
-        ])
+        let last = others.get(1).map_or(Vector::z(), |rows| rows[i]);
+        let rows = [first[0][i], others[0][i], last];
+        Matrix3::from_rows(&rows.map(|row| row.transpose()))
     };
     let mut all: Vec<Matrix3> = (0..land.reach.neighbors.len()).map(matrix).collect();
     let mut hands: Vec<f64> = all.iter().map(Matrix3::determinant).collect();
@@ -89,23 +93,26 @@ fn rows(
     for (i, m) in mass.iter().enumerate() {
         entries.add(i, i, SHIFT * m);
     }
-    let vectors = smallest(entries.factorized(3 * n)?, &mass, wanted)?;
+    let axes = match land.samples.ambient {
+        Ambient::Plane => 2,
+        Ambient::Space => 3,
+    };
+    let vectors = smallest(entries.factorized(3 * n)?, &mass, wanted, axes)?;
     let split = |x: &Vec<f64>| x.chunks_exact(3).map(Vector::from_column_slice).collect();
     Ok(vectors.iter().map(split).collect())
 }
 
-/// w |rho_i - rho_j|^2 over the edges of the graph of neighbours, 8 for each sample in the mean, more where
-/// the surface is stiff.
+/// w |rho_i - rho_j|^2 over the edges between neighbours, 8 for each sample in the mean, more where the surface
+/// is stiff.
 fn add_edges(entries: &mut Entries, land: &Land<'_>) {
     let reach = land.reach;
-    let links: usize = reach.neighbors.iter().map(Vec::len).sum();
-    let w = EDGES * reach.neighbors.len() as f64 / links.max(1) as f64;
-    for (i, near) in reach.neighbors.iter().enumerate() {
-        for j in near.iter().map(|&j| j as usize).filter(|&j| i > j) {
-            let w = w * land.firmness([i as u32, j as u32]);
-            for a in 0..3 {
-                entries.add_square(&[(3 * i + a, 1.0), (3 * j + a, -1.0)], w);
-            }
+    let all: f64 = reach.edges.iter().map(|(_, w)| 2.0 * w).sum();
+    let scale = EDGES * reach.neighbors.len() as f64 / all.max(f64::MIN_POSITIVE);
+    for &([i, j], w) in &reach.edges {
+        let w = scale * w * land.firmness([i, j]);
+        let (i, j) = (i as usize, j as usize);
+        for a in 0..3 {
+            entries.add_square(&[(3 * j + a, 1.0), (3 * i + a, -1.0)], w);
         }
     }
 }
@@ -119,16 +126,19 @@ fn add_pair(entries: &mut Entries, p: usize, q: usize, a: &Matrix3, c: f64) {
     }
 }
 
-/// Inverse subspace iteration: the `wanted` smallest eigenvectors of a matrix against a diagonal mass.
+/// Inverse subspace iteration: the `wanted` smallest eigenvectors of a matrix against a diagonal mass, among those
+/// along the first `axes` of each sample's three, which the matrix does not mix with the others.
 fn smallest(
     mut matrix: Factorized,
     mass: &[f64],
     wanted: usize,
+    axes: usize,
 ) -> Result<Vec<Vec<f64>>, SolveError> {
     // Any start that is not orthogonal to what is sought.
     let start = |k: usize| -> Vec<f64> {
+        let any = |i: usize| ((1 + k) as f64 * (i % 3 + 1) as f64 + 0.001 * i as f64).sin();
         (0..mass.len())
-            .map(|i| ((1 + k) as f64 * (i % 3 + 1) as f64 + 0.001 * i as f64).sin())
+            .map(|i| if i % 3 < axes { any(i) } else { 0.0 })
             .collect()
     };
     let mut block: Vec<Vec<f64>> = (0..VECTORS).map(start).collect();

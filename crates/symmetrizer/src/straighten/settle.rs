@@ -13,7 +13,7 @@ use crate::error::{Error, Result};
 use crate::field::grow::Land;
 use crate::field::local::{Local, fit};
 use crate::field::{Partner, SymmetryField};
-use crate::geom::{Matrix3, Point, Vector};
+use crate::geom::{Ambient, Matrix3, Point, Vector};
 use crate::shape::boundary::Boundary;
 use crate::shape::{ClosestPoint, Hit, Surface};
 use crate::straighten::blend::Blend;
@@ -53,6 +53,9 @@ pub fn settle(
     ctx: &mut Context<'_>,
 ) -> Result<SymmetryField> {
     let mut settling = Settling::new(land, field)?;
+    if std::env::var("DBG").is_ok() {
+        eprintln!("grown {:.3}", field.cover());
+    }
     let mut meetings = settling.meetings();
     for round in 0..ROUNDS {
         ctx.progress(f64::from(round) / f64::from(ROUNDS))?;
@@ -68,6 +71,11 @@ pub fn settle(
         let next = settling.meetings();
         let moved = moved(&meetings, &next);
         meetings = next;
+        if std::env::var("DBG").is_ok() {
+            let n = meetings.iter().flatten().count();
+            let r: f64 = meetings.iter().flatten().map(|m| m.partner.residual).sum::<f64>() / n as f64;
+            eprintln!("round {round} stiff {stiff:.2}: met {n} residual {r:.5} moved {moved:.6}");
+        }
         if part == 1.0 && moved < SETTLED {
             break;
         }
@@ -185,7 +193,10 @@ impl<'a> Settling<'a> {
         meetings: &[Option<Meeting>],
         stiff: f64,
     ) -> std::result::Result<(), SolveError> {
-        let mut equations = Equations::new(self.motions.len());
+        let mut equations = Equations::new(
+            self.motions.len(),
+            self.land.samples.ambient == Ambient::Plane,
+        );
         self.agree(&mut equations, stiff);
         for (s, meeting) in (0..).zip(meetings) {
             if let Some(meeting) = meeting {
@@ -202,19 +213,18 @@ impl<'a> Settling<'a> {
 
     /// Neighbours move alike: their motions take both their places, and points above them, to the same.
     fn agree(&self, equations: &mut Equations, stiff: f64) {
-        let near = &self.land.reach.neighbors;
-        let links = (0..near.len() as u32)
-            .flat_map(|i| near[i as usize].iter().map(move |&j| [i, j]))
-            .filter(|[i, j]| i < j);
-        let links: Vec<[u32; 2]> = links.collect();
-        let springs: Vec<Spring> = links.par_iter().map(|&l| self.spring(l, stiff)).collect();
-        for (link, spring) in links.iter().zip(&springs) {
+        let edges = &self.land.reach.edges;
+        let springs: Vec<Spring> = edges
+            .par_iter()
+            .map(|&(link, weight)| self.spring(link, weight, stiff))
+            .collect();
+        for ((link, _), spring) in edges.iter().zip(&springs) {
             equations.add_spring(*link, spring);
         }
     }
 
     /// What holds two neighbours together.
-    fn spring(&self, link: [u32; 2], stiff: f64) -> Spring {
+    fn spring(&self, link: [u32; 2], weight: f64, stiff: f64) -> Spring {
         let ends = link.map(|k| &self.land.samples.list[k as usize]);
         let [a, b] = link.map(|k| &self.motions[k as usize]);
         let length = (ends[0].position - ends[1].position).norm();
@@ -222,7 +232,7 @@ impl<'a> Settling<'a> {
         let mut spring = Spring::default();
         // Steps agree and motions agree: of a square for both, the misses count by the share of the latter.
         let share = stiff / (stiff + STEADY);
-        let weight = self.land.firmness(link) * (stiff + STEADY) / 4.0;
+        let weight = weight * self.land.firmness(link) * (stiff + STEADY) / 4.0;
         for x in [ends[0].position, ends[1].position, above[0], above[1]] {
             let (y, z) = (a.apply(&x), b.apply(&x));
             spring.add([y - a.center, z - b.center], share * (y - z), weight);
