@@ -17,16 +17,20 @@ fn main() {
     }
 }
 fn one(path: &str) -> symmetrizer::Result<()> {
-    let count: usize = std::env::var("COUNT").ok().map_or(1000, |c| c.parse().unwrap());
+    let count: usize = std::env::var("COUNT").ok().map_or(600, |c| c.parse().unwrap());
     let t = Instant::now();
     let drawing = read(std::path::Path::new(path), &Reading::default())?;
     let rings: Vec<Vec<Point>> = drawing.outline().rings.iter().map(|r| r.points.clone()).collect();
     let wall = Wall::new(&rings)?;
     let t1 = t.elapsed().as_secs_f64();
     let mut params = DetectParams::default().mirrors_only();
-    params.sample.count = count;
+    params.sample.outline = count;
     let mut ctx = Context::new(0);
     let found = detect_in_plane(&wall, &params, &mut ctx)?;
+    if std::env::var("REF").is_ok() {
+        println!("votes {} symmetries {:?}", found.clouds[0].pairs.len(), found.symmetries.iter().map(|s| (s.height, s.area_fraction, s.rms)).collect::<Vec<_>>());
+        for r in found.refused.iter().take(12) { println!("  {r:?}"); }
+    }
     let t2 = t.elapsed().as_secs_f64();
     let closest = ClosestPoint::new(&wall.surface);
     let samples = &found.samples;
@@ -112,8 +116,8 @@ fn one(path: &str) -> symmetrizer::Result<()> {
         }
         text = format!("rms {:.4} -> {:.4} % of D ({} points)", rms(&a, &b0), rms(&a, &b1), a.len());
     }
-    println!("{path}: {} edges {} samples, {} mirrors (first {best:.2}); {:?} score {:.2} trusted {:.2} gap {:.2} relief {:.2} unfit {:.3} bend {:.0}; {text}; times read {t1:.2} detect {:.2} bend {:.2} straighten {:.2}",
-        wall.edges(), samples.list.len(), mirrors.len(), bend.trust.verdict(), bend.trust.score(), bend.trust.share, bend.trust.gap, bend.trust.relief, bend.trust.unfit, bend.degrees, t2 - t1, t3 - t2, t4 - t3);
+    println!("{path}: {} edges {} samples, {} mirrors (first {best:.2}); {:?} score {:.2} trusted {:.2} gap {:.2} relief {:.2} unfit {:.3} rival {:.2} bend {:.0}; {text}; times read {t1:.2} detect {:.2} bend {:.2} straighten {:.2}",
+        wall.edges(), samples.list.len(), mirrors.len(), bend.trust.verdict(), bend.trust.score(), bend.trust.share, bend.trust.gap, bend.trust.relief, bend.trust.unfit, bend.trust.rival.unwrap_or(9.0), bend.degrees, t2 - t1, t3 - t2, t4 - t3);
     let mut svg = String::from("<svg xmlns='http://www.w3.org/2000/svg' viewBox='-0.6 -0.6 2.4 1.2'><rect x='-1' y='-1' width='4' height='3' fill='white'/>");
     for (k, pos) in [&wall.surface.positions, &straight.positions].iter().enumerate() {
         for r in &wall.rings {

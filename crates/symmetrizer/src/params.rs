@@ -43,8 +43,9 @@ pub struct Params {
 
 /// What each parameter may be. The limits keep work and memory finite and formulas defined; within
 /// them not every value is wise.
-const RANGES: [(&str, f64, f64); 41] = [
+const RANGES: [(&str, f64, f64); 42] = [
     ("sample.count", 100.0, 20_000.0),
+    ("sample.outline", 100.0, 2_000.0),
     ("pair.tolerance", 1e-6, 100.0),
     ("pair.partners", 1.0, 1000.0),
     ("pair.min_distance", 0.0, 1.0),

@@ -3,6 +3,7 @@
 //!
 //! Each sample has a partner on the surface and a local mirror that carries its surroundings there.
 
+pub mod around;
 pub mod cut;
 pub mod grow;
 pub mod local;
@@ -56,14 +57,29 @@ pub fn find(
     mirrors: &[Isometry],
     ctx: &Context<'_>,
 ) -> Result<SymmetryField> {
-    let (claims, cancel) = (seeds::CLAIMS.par_iter(), ctx.token());
-    let grown: Vec<SymmetryField> = claims
-        .map(|&claim| grow(land, seeds::seeds(land, mirrors, claim), cancel))
+    let cancel = ctx.token();
+    let claims = seeds::CLAIMS.iter();
+    let mut starts: Vec<_> = claims
+        .map(|&claim| seeds::seeds(land, mirrors, claim))
+        .collect();
+    if let Some(wall) = land.wall {
+        starts.push(around::Around::of(wall, land.samples).partners);
+    }
+    let grown: Vec<SymmetryField> = starts
+        .into_par_iter()
+        .map(|seeds| grow(land, seeds, cancel))
         .collect();
     ctx.check()?;
+    // In the plane nearly all starts cover nearly all.
+    let worth = |field: &SymmetryField| match land.wall {
+        Some(_) => field.cover() * trust::Trust::of(land, field).likeness(),
+        None => field.cover(),
+    };
     let best = grown
         .into_iter()
-        .max_by(|a, b| a.cover().total_cmp(&b.cover()));
+        .map(|field| (worth(&field), field))
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, field)| field);
     Ok(best.unwrap_or_else(|| SymmetryField {
         partners: vec![None; land.samples.list.len()],
         maps: vec![None; land.samples.list.len()],

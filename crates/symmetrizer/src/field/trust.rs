@@ -9,11 +9,13 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::field::around::Around;
 use crate::field::grow::Land;
 use crate::field::pieces::pieces;
 use crate::field::{Partner, SymmetryField};
 use crate::geom::median;
 use crate::sample::Sample;
+use crate::transform::Ambient;
 
 /// Distances along the surface over which stretch is measured, fractions of L.
 const SPAN: [f64; 2] = [0.05, 0.115];
@@ -33,8 +35,13 @@ const AWAY: f64 = 0.002;
 /// above which a field is not accepted, for it holds for a part at the most ...
 const UNFIT: f64 = 0.003;
 const PARTIAL: f64 = 0.045;
+/// The same share of an outline, whose limbs are half of it; what its rivals say is the surer sign.
+const PARTIAL_OUTLINE: f64 = 0.1;
 /// ... unless it scores as much, as those of shapes do that lack a piece.
 const SURE: f64 = 0.7;
+/// What rivals of an outline's pairing reach up to which it is accepted, and above which it is refused: true ones
+/// have .12 to .70, a hand .94, animals seen from the side and tracings of tangled limbs more than .9.
+const RIVAL: [f64; 2] = [0.72, 0.85];
 /// Trusted share of the surroundings of a sample below which it is left alone, and above which it may be
 /// changed as the rest.
 const REGION: [f64; 2] = [0.55, 0.8];
@@ -68,6 +75,9 @@ pub struct Trust {
     pub relief: f64,
     /// Share of the samples that have no partner which fits, however they settle.
     pub unfit: f64,
+    /// In the plane, how much the outline looks like its mirror image from other places, too: 0 not at all, 1 as
+    /// much.
+    pub rival: Option<f64>,
 }
 
 impl Trust {
@@ -81,13 +91,16 @@ impl Trust {
             .iter()
             .map(|q| q.map(|q| q.residual))
             .collect();
+        let flat = land.samples.ambient == Ambient::Plane;
         let trusted: Vec<bool> = (0..count as u32)
             .into_par_iter()
             .map(|s| {
                 let alike = mean_around(land, s, &gaps) <= UNLIKE * relief;
                 let fits = mean_around(land, s, &away) <= AWAY;
                 let paired = field.partners[s as usize].is_some();
-                paired && alike && fits && stretch(land, field, s) <= STRETCH
+                // Limbs of the plane turn in their joints, where those of space slide over the surface.
+                let isometric = flat || stretch(land, field, s) <= STRETCH;
+                paired && alike && fits && isometric
             })
             .collect();
         let mut all: Vec<f64> = gaps.iter().flatten().copied().collect();
@@ -97,6 +110,7 @@ impl Trust {
             gap: gap / relief.max(f64::MIN_POSITIVE),
             relief,
             trusted,
+            rival: land.wall.map(|wall| Around::of(wall, land.samples).rival),
             unfit: mean(
                 away.iter()
                     .map(|d| f64::from(u8::from(d.is_none_or(|d| d > UNFIT)))),
@@ -123,18 +137,28 @@ impl Trust {
             .collect()
     }
 
+    /// How alike partners look: 1 entirely, 0 no more than any two samples.
+    pub fn likeness(&self) -> f64 {
+        (1.0 - self.gap).max(0.0)
+    }
+
     /// Trusted share times likeness, 0 to 1.
     pub fn score(&self) -> f64 {
-        self.share * (1.0 - self.gap).max(0.0)
+        self.share * self.likeness()
     }
 
     /// What follows from the figures.
     pub fn verdict(&self) -> Verdict {
         let score = self.score();
-        let whole = self.unfit <= PARTIAL || score >= SURE;
+        let partial = self.rival.map_or(PARTIAL, |_| PARTIAL_OUTLINE);
+        let whole = self.unfit <= partial || score >= SURE;
+        let [sure, none] = RIVAL;
+        let rival = self.rival.unwrap_or(0.0);
         match () {
-            () if score < REFUSE => Verdict::Refuse,
-            () if score >= ACCEPT && self.relief >= BLAND && whole => Verdict::Accept,
+            () if score < REFUSE || rival > none => Verdict::Refuse,
+            () if score >= ACCEPT && self.relief >= BLAND && whole && rival <= sure => {
+                Verdict::Accept
+            }
             () => Verdict::Uncertain,
         }
     }

@@ -37,7 +37,7 @@ pub fn signature(wall: &Wall, ring: usize, along: f64, r0: f64) -> Signature {
     Signature(std::array::from_fn::<_, SCALES, _>(at))
 }
 
-/// Samples the outline of `describer`'s `wall` (section 2): `params.count` of them over its length.
+/// Samples the outline of `describer`'s `wall` (section 2): `params.outline` of them over its length.
 ///
 /// # Errors
 /// [`Error::Params`] for fewer than 100 samples; [`Error::Cancelled`].
@@ -47,11 +47,11 @@ pub fn sample_outline(
     params: &SampleParams,
     ctx: &mut Context<'_>,
 ) -> Result<Samples> {
-    if params.count < 100 {
-        return Err(Error::params("sample.count", "at least 100 are needed"));
+    if params.outline < 100 {
+        return Err(Error::params("sample.outline", "at least 100 are needed"));
     }
     let lengths: Vec<f64> = (0..wall.rings.len()).map(|r| wall.length(r)).collect();
-    let spacing = lengths.iter().sum::<f64>() / params.count as f64;
+    let spacing = lengths.iter().sum::<f64>() / params.outline as f64;
     let (mut places, mut neighbors) = (Vec::new(), Vec::new());
     for (ring, length) in lengths.iter().enumerate() {
         let count = ((length / spacing).round() as usize).max(LEAST);

@@ -44,11 +44,11 @@ impl Bend {
         mirrors: &[Isometry],
         ctx: &mut Context<'_>,
     ) -> Result<Option<Self>> {
-        if mirrors.is_empty() {
-            return Ok(None);
-        }
         if land.wall.is_some() {
             return Self::find_on(land, mirrors, ctx);
+        }
+        if mirrors.is_empty() {
+            return Ok(None);
         }
         let Some(control) = decimated(land.surface, FACES)? else {
             return Self::find_on(land, mirrors, ctx);
@@ -88,7 +88,6 @@ impl Bend {
         let field = match trust.verdict() {
             Verdict::Refuse => settled.clone(),
             Verdict::Uncertain => settled.of(&within(&trust, &trust.region(land), &settled)),
-            Verdict::Accept if std::env::var("ALL").is_ok() => settled.clone(),
             Verdict::Accept => settled.of(&trust.trusted),
         };
         let turns = rotations::solved(land, &field)?;

@@ -53,9 +53,6 @@ pub fn settle(
     ctx: &mut Context<'_>,
 ) -> Result<SymmetryField> {
     let mut settling = Settling::new(land, field)?;
-    if std::env::var("DBG").is_ok() {
-        eprintln!("grown {:.3}", field.cover());
-    }
     let mut meetings = settling.meetings();
     for round in 0..ROUNDS {
         ctx.progress(f64::from(round) / f64::from(ROUNDS))?;
@@ -71,11 +68,6 @@ pub fn settle(
         let next = settling.meetings();
         let moved = moved(&meetings, &next);
         meetings = next;
-        if std::env::var("DBG").is_ok() {
-            let n = meetings.iter().flatten().count();
-            let r: f64 = meetings.iter().flatten().map(|m| m.partner.residual).sum::<f64>() / n as f64;
-            eprintln!("round {round} stiff {stiff:.2}: met {n} residual {r:.5} moved {moved:.6}");
-        }
         if part == 1.0 && moved < SETTLED {
             break;
         }
