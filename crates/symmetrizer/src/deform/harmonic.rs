@@ -14,7 +14,10 @@ use crate::shape::Surface;
 /// [`crate::Error::Numerical`].
 pub fn rotations_inside(surface: &Surface, known: &[Option<Matrix3>]) -> Result<Vec<Matrix3>> {
     let spread = spread(surface, known).map_err(|e| failure(e, 0))?;
-    Ok(spread.iter().map(|m| nearest_orthogonal(m, false)).collect())
+    Ok(spread
+        .iter()
+        .map(|m| nearest_orthogonal(m, false))
+        .collect())
 }
 
 fn spread(

@@ -7,7 +7,9 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use spade::handles::{FixedFaceHandle, InnerTag, PossiblyOuterTag};
-use spade::{AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementParameters, Triangulation};
+use spade::{
+    AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementParameters, Triangulation,
+};
 
 use crate::error::{Error, Result};
 use crate::geom::{Point, PointIndex, Vector};
@@ -84,6 +86,22 @@ impl Sheet {
             })
             .collect()
     }
+
+    /// For each triangle what the nearest edge of the wall has.
+    pub fn nearest_on<T>(&self, wall: &Wall, of_edge: impl Fn(usize) -> T) -> Vec<T> {
+        let starts: Vec<[f64; 3]> = (0..wall.edges())
+            .map(|e| wall.start(e).coords.into())
+            .collect();
+        let index = PointIndex::new(&starts);
+        let nearest = |f: u32| {
+            let [a, b, c] = self.surface.corners(f);
+            let middle = (a.coords + b.coords + c.coords) / 3.0;
+            of_edge(index.nearest(&middle.into()).map_or(0, |(e, _)| e as usize))
+        };
+        (0..self.surface.triangles.len() as u32)
+            .map(nearest)
+            .collect()
+    }
 }
 
 /// The outline as the triangulation has it: places that differ, and the edges between them.
@@ -117,7 +135,8 @@ impl Edges {
 
     /// The triangulation of `places`, the first of which are the outline's.
     fn delaunay(&self, places: &[Point2<f64>]) -> Result<Delaunay> {
-        let mut edges: Vec<[usize; 2]> = self.ends.iter().copied().filter(|[a, b]| a != b).collect();
+        let mut edges: Vec<[usize; 2]> =
+            self.ends.iter().copied().filter(|[a, b]| a != b).collect();
         edges.iter_mut().for_each(|e| e.sort_unstable());
         edges.sort_unstable();
         edges.dedup();
@@ -152,7 +171,10 @@ impl Edges {
             // An edge that was left out stands for its first end.
             found.or_else(|| any.get(&a).map(|&(f, k)| (f, [k, k])))
         };
-        let sides = self.ends.iter().map(|ends| side(ends).unwrap_or((0, [0, 0])));
+        let sides = self
+            .ends
+            .iter()
+            .map(|ends| side(ends).unwrap_or((0, [0, 0])));
         let positions = places.iter().map(|p| Point::new(p.x, p.y, 0.0)).collect();
         Ok(Sheet {
             sides: sides.collect(),
@@ -202,7 +224,11 @@ fn inside(delaunay: &Delaunay) -> Vec<[u32; 3]> {
         for edge in edges {
             let edge = delaunay.directed_edge(edge);
             // Hull edges are those of the outer face, triangles' their own.
-            let over = if edge.face().fix() == face { edge.rev() } else { edge };
+            let over = if edge.face().fix() == face {
+                edge.rev()
+            } else {
+                edge
+            };
             let next = over.face().fix();
             if parity[next.index()].is_none() {
                 parity[next.index()] = Some(was != edge.is_constraint_edge());
@@ -224,7 +250,10 @@ fn inside(delaunay: &Delaunay) -> Vec<[u32; 3]> {
 fn drop_unused(places: &mut Vec<Point2<f64>>, triangles: &mut [[u32; 3]], kept: usize) {
     let mut used = vec![false; places.len()];
     used[..kept].fill(true);
-    triangles.iter().flatten().for_each(|&v| used[v as usize] = true);
+    triangles
+        .iter()
+        .flatten()
+        .for_each(|&v| used[v as usize] = true);
     let mut number = vec![0; places.len()];
     let mut count = 0;
     for (v, used) in used.iter().enumerate() {
@@ -233,7 +262,10 @@ fn drop_unused(places: &mut Vec<Point2<f64>>, triangles: &mut [[u32; 3]], kept: 
     }
     let mut flags = used.iter();
     places.retain(|_| *flags.next().unwrap_or(&true));
-    triangles.iter_mut().flatten().for_each(|v| *v = number[*v as usize]);
+    triangles
+        .iter_mut()
+        .flatten()
+        .for_each(|v| *v = number[*v as usize]);
 }
 
 /// How long triangles are to be.
@@ -244,7 +276,9 @@ struct Size {
 
 impl Size {
     fn along(wall: &Wall) -> Self {
-        let places: Vec<[f64; 3]> = (0..wall.edges()).map(|e| wall.start(e).coords.into()).collect();
+        let places: Vec<[f64; 3]> = (0..wall.edges())
+            .map(|e| wall.start(e).coords.into())
+            .collect();
         Self {
             outline: PointIndex::new(&places),
             lengths: (0..wall.edges())
@@ -303,7 +337,8 @@ mod tests {
 
     /// A square with a square hole.
     fn framed() -> Wall {
-        let square = |r: f64| [[-r, -r], [r, -r], [r, r], [-r, r]].map(|[x, y]| Point::new(x, y, 0.0));
+        let square =
+            |r: f64| [[-r, -r], [r, -r], [r, r], [-r, r]].map(|[x, y]| Point::new(x, y, 0.0));
         let mut hole = square(1.0).to_vec();
         hole.reverse();
         Wall::new(&[square(3.0).to_vec(), hole]).expect("a wall")
