@@ -6,10 +6,12 @@ pub mod finish;
 pub mod glide;
 pub mod merge;
 pub mod moving;
+pub mod outcome;
 pub mod params;
 mod rounds;
 pub mod schedule;
 pub mod untangle;
 
 pub use params::OptimizeParams;
-pub use schedule::{Optimized, Outcome, Step, complete, optimize};
+pub use outcome::{Optimized, Outcome, Step};
+pub use schedule::{complete, optimize};
