@@ -86,6 +86,7 @@ impl Bunny {
 
     fn settings(&self) -> Settings<'_> {
         Settings {
+            wall: None,
             region: None,
             stiffness: None,
             detect: &self.detect,

@@ -152,6 +152,7 @@ fn made(
     let measured = ctx.stage("measure", |ctx| before.asymmetry(&[], ctx))?;
     let stiffness = stiffness.per_face(&before.working);
     let settings = Settings {
+        wall: None,
         stiffness: stiffness.as_deref(),
         region: None,
         detect: &detect,

@@ -32,7 +32,7 @@ pub use job::{
     Detected, Measured, Symmetrized, detect_document, detect_in, measure_in, symmetrize,
     symmetrize_with, unbend,
 };
-pub use optimize::schedule::Outcome;
+pub use optimize::Outcome;
 pub use params::Params;
 pub use report::Report;
 pub use shape::mesh::Mesh;

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::geom::{Point, Vector};
+use crate::optimize::rounds::Changed;
 use crate::shape::{ClosestPoint, Hit, Surface};
 use crate::transform::{Ambient, Correspondence, Isometry, Plane, displacements, optimal_mirror};
 
@@ -28,14 +29,9 @@ struct Partner {
 }
 
 impl Aim {
-    /// Of `surface` under `plane`, `closest` its closest points; each vertex may be changed as far as `region` says
-    /// (0 to 1), all of them where it does not.
-    pub fn at(
-        surface: &Surface,
-        plane: Plane,
-        closest: &ClosestPoint,
-        region: Option<&[f64]>,
-    ) -> Self {
+    /// Of `surface` under `plane`, `closest` its closest points.
+    pub fn at(surface: &Surface, plane: Plane, closest: &ClosestPoint, changed: &Changed) -> Self {
+        let region = changed.region.as_deref();
         let mirror = Isometry::mirror(&plane);
         let found: Vec<(f64, Option<Partner>)> = (0..surface.positions.len())
             .into_par_iter()
@@ -51,7 +47,7 @@ impl Aim {
         let total: f64 = (0..found.len()).map(area).sum();
         let weighted = found.iter().enumerate().map(|(v, (d, _))| d * area(v));
         let asymmetry = weighted.sum::<f64>() / total.max(f64::MIN_POSITIVE);
-        let plane = refit(surface, &found).unwrap_or(plane);
+        let plane = refit(surface, &found, changed.ambient).unwrap_or(plane);
         let mirror = Isometry::mirror(&plane);
         let mut targets = vec![Vector::zeros(); found.len()];
         let mut confidence = vec![0.0; found.len()];
@@ -73,7 +69,7 @@ impl Aim {
 }
 
 /// Appendix A over all vertices and their partners.
-fn refit(surface: &Surface, found: &[(f64, Option<Partner>)]) -> Option<Plane> {
+fn refit(surface: &Surface, found: &[(f64, Option<Partner>)], ambient: Ambient) -> Option<Plane> {
     let pairs: Vec<Correspondence> = found
         .iter()
         .enumerate()
@@ -85,7 +81,7 @@ fn refit(surface: &Surface, found: &[(f64, Option<Partner>)]) -> Option<Plane> {
             })
         })
         .collect();
-    optimal_mirror(&pairs, Ambient::Space).map(|fit| fit.plane)
+    optimal_mirror(&pairs, ambient).map(|fit| fit.plane)
 }
 
 /// The distance of the mirror image of vertex `v` from the surface, and its partner there where the

@@ -15,7 +15,7 @@ use crate::optimize::rounds::{Changed, Rounds};
 use crate::optimize::schedule::Settings;
 use crate::optimize::untangle::untangle;
 use crate::shape::{ClosestPoint, Surface};
-use crate::transform::Plane;
+use crate::transform::{Ambient, Plane};
 
 /// What the finish did.
 #[derive(Debug, Clone)]
@@ -51,9 +51,18 @@ pub fn finish(
     settings: Settings<'_>,
     ctx: &mut Context<'_>,
 ) -> Result<Finished> {
-    let full = decimated(surface, FULL)?;
+    // Walls are as fine as they need to be.
+    let coarser = |surface: &Surface, faces: usize| match settings.wall {
+        Some(_) => Ok(None),
+        None => decimated(surface, faces),
+    };
+    let full = coarser(surface, FULL)?;
     let rest = full.as_ref().map_or(surface, |f| &f.surface);
     let changed = Changed {
+        ambient: match settings.wall {
+            Some(_) => Ambient::Plane,
+            None => Ambient::Space,
+        },
         stiffness: settings.stiffness.map(<[f64]>::to_vec),
         region: settings.region.map(<[f64]>::to_vec),
     };
@@ -62,7 +71,7 @@ pub fn finish(
         .map_or_else(|| changed.clone(), |full| changed.on(surface, full));
     let mut rounds = Rounds::new(settings.optimize, goal, plane);
     let mut now = rest.clone();
-    if let Some(coarse) = decimated(rest, COARSE.0)? {
+    if let Some(coarse) = coarser(rest, COARSE.0)? {
         let control = &coarse.surface;
         let until = COARSE.1 * control.mean_edge();
         let moved = rounds.run(control, &changed.on(rest, &coarse), until, ctx)?;
@@ -76,12 +85,7 @@ pub fn finish(
     if undone > 0.0 {
         let seen = full.map_or_else(|| now.clone(), |f| f.following(&now));
         let closest = ClosestPoint::new(&seen);
-        rounds.note(&Aim::at(
-            &seen,
-            rounds.plane,
-            &closest,
-            changed.region.as_deref(),
-        ));
+        rounds.note(&Aim::at(&seen, rounds.plane, &closest, &changed));
     }
     Ok(Finished {
         undone,

@@ -29,7 +29,7 @@ pub fn glide(ground: &Ground<'_>, couples: &mut [Couple]) -> Option<Glided> {
     let list = &ground.samples.list;
     let space = TransformSpace::new(list.iter().map(|s| (s.position, 1.0)));
     let origin: Vec<(Point, Point)> = ends(ground, couples);
-    let mut plane = fit_mirror(couples, &origin)?.plane;
+    let mut plane = fit_mirror(couples, &origin, ground.samples.ambient)?.plane;
     let mut variance = vec![spread(&space, couples, &origin)];
     for _ in 0..ROUNDS {
         let mirror = Isometry::mirror(&plane);
@@ -39,7 +39,7 @@ pub fn glide(ground: &Ground<'_>, couples: &mut [Couple]) -> Option<Glided> {
             .map(|(c, start)| glide_couple(ground, c, start, &mirror))
             .collect();
         let places = ends(ground, &moved);
-        let Some(next) = fit_mirror(&moved, &places) else {
+        let Some(next) = fit_mirror(&moved, &places, ground.samples.ambient) else {
             break;
         };
         let now = spread(&space, &moved, &places);

@@ -176,12 +176,12 @@ fn step(
 ) -> Result<Option<f64>> {
     let ends = [0, 1].map(|k| moving.ends(&parts[k].couples));
     for k in 0..2 {
-        let Some(fit) = fit_mirror(&parts[k].couples, &ends[k]) else {
+        let Some(fit) = fit_mirror(&parts[k].couples, &ends[k], moving.samples.ambient) else {
             return Ok(None);
         };
         parts[k].plane = fit.plane;
     }
-    let Some(common) = pooled(parts, &ends) else {
+    let Some(common) = pooled(parts, &ends, moving.samples.ambient) else {
         return Ok(None);
     };
     let mirrors = [0, 1].map(|k| Isometry::mirror(&parts[k].plane));
@@ -212,7 +212,7 @@ fn step(
 
 /// The optimal mirror of both parts together, each with the same total weight, so
 /// that both parts turn.
-fn pooled(parts: &[Part; 2], ends: &[Vec<(Point, Point)>; 2]) -> Option<Plane> {
+fn pooled(parts: &[Part; 2], ends: &[Vec<(Point, Point)>; 2], ambient: Ambient) -> Option<Plane> {
     let mut pairs = Vec::new();
     for (part, ends) in parts.iter().zip(ends) {
         let total: f64 = part.couples.iter().map(|c| c.weight).sum();
@@ -224,5 +224,5 @@ fn pooled(parts: &[Part; 2], ends: &[Vec<(Point, Point)>; 2]) -> Option<Plane> {
             });
         }
     }
-    optimal_mirror(&pairs, Ambient::Space).map(|fit| fit.plane)
+    optimal_mirror(&pairs, ambient).map(|fit| fit.plane)
 }

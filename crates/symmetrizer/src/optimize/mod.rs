@@ -12,6 +12,6 @@ mod rounds;
 pub mod schedule;
 pub mod untangle;
 
-pub use params::OptimizeParams;
 pub use outcome::{Optimized, Outcome, Step};
+pub use params::OptimizeParams;
 pub use schedule::{complete, optimize};

@@ -130,7 +130,7 @@ impl Moving<'_> {
         ctx: &mut Context<'_>,
     ) -> Result<Option<(MirrorFit, Deformed)>> {
         let ends = self.ends(couples);
-        let Some(fit) = fit_mirror(couples, &ends) else {
+        let Some(fit) = fit_mirror(couples, &ends, self.samples.ambient) else {
             return Ok(None);
         };
         let mirror = Isometry::mirror(&fit.plane);
@@ -140,7 +140,11 @@ impl Moving<'_> {
 }
 
 /// Appendix A over couples at their present ends.
-pub fn fit_mirror(couples: &[Couple], ends: &[(Point, Point)]) -> Option<MirrorFit> {
+pub fn fit_mirror(
+    couples: &[Couple],
+    ends: &[(Point, Point)],
+    ambient: Ambient,
+) -> Option<MirrorFit> {
     let pairs: Vec<Correspondence> = couples
         .iter()
         .zip(ends)
@@ -150,7 +154,7 @@ pub fn fit_mirror(couples: &[Couple], ends: &[(Point, Point)]) -> Option<MirrorF
             weight: c.weight,
         })
         .collect();
-    optimal_mirror(&pairs, Ambient::Space)
+    optimal_mirror(&pairs, ambient)
 }
 
 /// Couples by closest points under `plane`: each sample for which `wanted` holds with the facing

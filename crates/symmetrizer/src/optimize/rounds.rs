@@ -9,7 +9,7 @@ use crate::geom::Vector;
 use crate::optimize::OptimizeParams;
 use crate::optimize::aim::Aim;
 use crate::shape::{ClosestPoint, Surface};
-use crate::transform::Plane;
+use crate::transform::{Ambient, Plane};
 
 /// Factor of the smoothing length from round to round.
 const REFINE: f64 = 0.8;
@@ -24,6 +24,8 @@ const STALLED: f64 = 0.995;
 /// What may be changed of a surface, and how easily.
 #[derive(Clone)]
 pub(super) struct Changed {
+    /// Where the shape lives.
+    pub ambient: Ambient,
     /// Stiffness of each face, where it is not 1 everywhere.
     pub stiffness: Option<Vec<f64>>,
     /// How far each vertex may be changed, 0 to 1, where it is not the whole surface.
@@ -36,6 +38,7 @@ impl Changed {
         let stiffness = self.stiffness.as_deref();
         let region = self.region.as_deref();
         Self {
+            ambient: self.ambient,
             stiffness: stiffness.map(|k| stiffness_on(&copy.surface, surface, k)),
             region: region.map(|region| copy.of_vertices(region)),
         }
@@ -151,7 +154,7 @@ impl<'a> Cloth<'a> {
         Ok(Self {
             field: SmoothField::new(surface, changed.stiffness.as_deref())?,
             now: surface.clone(),
-            aim: Aim::at(surface, plane, &closest, changed.region.as_deref()),
+            aim: Aim::at(surface, plane, &closest, changed),
             closest,
             changed,
         })
@@ -169,8 +172,7 @@ impl<'a> Cloth<'a> {
         let moved = moved.map(|(x, u)| x + u * fraction).collect();
         let next = self.now.with_positions(moved);
         self.closest.follow(&next);
-        let region = self.changed.region.as_deref();
-        let aim = Aim::at(&next, self.aim.plane, &self.closest, region);
+        let aim = Aim::at(&next, self.aim.plane, &self.closest, self.changed);
         (next, aim)
     }
 }

@@ -2,10 +2,9 @@
 //! then make the whole symmetric under the final mirror.
 
 use crate::context::Context;
-use crate::deform::{DeformParams, Deformer, deformer};
-use crate::detect::{DetectParams, Detection, detect};
+use crate::deform::{DeformParams, Deformer, Igarashi, deformer};
+use crate::detect::{DetectParams, Detection, detect, detect_in_plane};
 use crate::error::Result;
-use crate::geom::Point;
 use crate::optimize::contract::{contract, contract_whole};
 use crate::optimize::finish::finish;
 use crate::optimize::merge::{merge, ownership};
@@ -14,6 +13,7 @@ use crate::optimize::outcome::{Optimized, Outcome, Step, next_id};
 use crate::optimize::params::OptimizeParams;
 use crate::patch::{Symmetry, carry_ids};
 use crate::sample::{Sample, Samples};
+use crate::shape::wall::Wall;
 use crate::shape::{ClosestPoint, Surface};
 use crate::transform::{Isometry, Plane};
 
@@ -22,6 +22,8 @@ use crate::transform::{Isometry, Plane};
 pub struct Settings<'a> {
     /// Detection, for pairs that are found again on the way.
     pub detect: &'a DetectParams,
+    /// The wall that the surface is, in the plane.
+    pub wall: Option<&'a Wall>,
     /// Stiffness of each face, where it is not 1 everywhere.
     pub stiffness: Option<&'a [f64]>,
     /// How far each vertex may be changed, 0 to 1, where the symmetry holds for a part only.
@@ -155,7 +157,10 @@ pub fn complete(
 /// # Errors
 /// As [`deformer`].
 pub fn prepared(surface: &Surface, settings: Settings<'_>) -> Result<Box<dyn Deformer>> {
-    let mut deformer = deformer(surface, settings.deform)?;
+    let mut deformer: Box<dyn Deformer> = match settings.wall {
+        Some(wall) => Box::new(Igarashi::new(wall.moved(surface.positions.clone()))?),
+        None => deformer(surface, settings.deform)?,
+    };
     if let Some(stiffness) = settings.stiffness {
         deformer.set_stiffness(stiffness)?;
     }
@@ -354,8 +359,11 @@ impl Schedule<'_> {
     /// Detection on the shape as it is now; what was known keeps its id.
     fn detect_again(&mut self, ctx: &mut Context<'_>) -> Result<(Samples, Vec<Symmetry>)> {
         let rest = self.moving.deformer.rest();
-        let surface = rest.with_positions(self.moving.deformer.positions());
-        let found = detect(&surface, self.settings.detect, ctx)?;
+        let positions = self.moving.deformer.positions();
+        let found = match self.settings.wall {
+            Some(wall) => detect_in_plane(&wall.moved(positions), self.settings.detect, ctx)?,
+            None => detect(&rest.with_positions(positions), self.settings.detect, ctx)?,
+        };
         let mut symmetries = worthwhile(&found.symmetries, self.settings, found.samples.list.len());
         let known = (&self.moving.samples, self.symmetries.as_slice());
         self.next_id = carry_ids(rest, known, (&found.samples, &mut symmetries), self.next_id);
