@@ -4,11 +4,15 @@ mod bent;
 pub mod kinds;
 mod measured;
 pub mod pictures;
+pub mod plane;
 
-use crate::apply::measure::{Asymmetry, AsymmetryReport, asymmetry, distortion};
+use crate::apply::measure::{
+    Asymmetry, AsymmetryReport, Distortion, asymmetry, asymmetry_of_outline, distortion,
+    distortion_of_outline,
+};
 use crate::context::Context;
-use crate::deform::Stiffness;
-use crate::detect::{DetectParams, Detection, Group, detect};
+use crate::deform::{Igarashi, Stiffness};
+use crate::detect::{DetectParams, Detection, Group, detect, detect_in_plane};
 use crate::error::Result;
 use crate::optimize::schedule::Settings;
 use crate::optimize::{Optimized, Outcome, optimize};
@@ -16,17 +20,21 @@ use crate::params::Params;
 use crate::patch::{Symmetry, carry_ids};
 use crate::report::faces::FaceSamples;
 use crate::report::{Head, InputReport, Report, ResultReport, StiffnessReport, symmetry};
+use crate::shape::wall::Wall;
 use crate::shape::working::{Mended, Working};
 use crate::shape::{Document, Mesh};
 use crate::transform::{Elements, Plane};
 
 pub use bent::Bent;
 pub use measured::{Measured, measure_in};
+pub use plane::{Drawn, detect_drawing, symmetrize_drawing, unbend_drawing};
 
 /// A state of a shape and the symmetries found in it.
 pub struct Detected {
     /// The shape to work on.
     pub working: Working,
+    /// The wall that it is, in the plane.
+    pub wall: Option<Wall>,
     /// The bounding-box diagonal D, fraction of L.
     pub diagonal: f64,
     /// What was found.
@@ -95,7 +103,7 @@ fn find_in(
 ) -> Result<Detected> {
     warn_of(&working.mended, ctx);
     ctx.stage("detect", |ctx| {
-        Detected::find(working, mesh.diagonal(), params, ctx)
+        Detected::find((working, None), mesh.diagonal(), params, ctx)
     })
 }
 
@@ -121,7 +129,16 @@ pub fn symmetrize_with(
     params: &Params,
     ctx: &mut Context<'_>,
 ) -> Result<Symmetrized> {
-    made(mesh, stiffness, params, false, ctx)
+    mesh.check()?;
+    stiffness.check(mesh)?;
+    params.check()?;
+    let before = find_in(
+        Working::new(mesh)?,
+        mesh,
+        &params.detect().mirrors_only(),
+        ctx,
+    )?;
+    made(mesh, before, stiffness, params, false, ctx)
 }
 
 /// Undoes the bend of `mesh` and does nothing else; where none is found that the parameters accept, the
@@ -133,26 +150,31 @@ pub fn unbend(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result<Sym
     let mut params = params.clone();
     params.optimize.final_steps = 0;
     params.optimize.finish_rounds = 0;
-    made(mesh, &Stiffness::default(), &params, true, ctx)
+    mesh.check()?;
+    params.check()?;
+    let before = find_in(
+        Working::new(mesh)?,
+        mesh,
+        &params.detect().mirrors_only(),
+        ctx,
+    )?;
+    made(mesh, before, &Stiffness::default(), &params, true, ctx)
 }
 
-/// [`symmetrize_with`], or [`unbend`] where `only` that is to be done.
+/// [`symmetrize_with`], or [`unbend`] where `only` that is to be done, of `mesh` whose mirrors were found.
 fn made(
     mesh: &Mesh,
+    before: Detected,
     stiffness: &Stiffness,
     params: &Params,
     only: bool,
     ctx: &mut Context<'_>,
 ) -> Result<Symmetrized> {
-    mesh.check()?;
-    stiffness.check(mesh)?;
-    params.check()?;
     let detect = params.detect().mirrors_only();
-    let before = find_in(Working::new(mesh)?, mesh, &detect, ctx)?;
     let measured = ctx.stage("measure", |ctx| before.asymmetry(&[], ctx))?;
     let stiffness = stiffness.per_face(&before.working);
     let settings = Settings {
-        wall: None,
+        wall: before.wall.as_ref(),
         stiffness: stiffness.as_deref(),
         region: None,
         detect: &detect,
@@ -175,7 +197,9 @@ fn made(
         (bend, bent) = (looked.report, looked.bent);
         match looked.done {
             Some(done) => done,
-            None if only => Optimized::unmoved(surface, &before.detection, Outcome::NoSymmetry),
+            None if only || !plane::mirrored(&before) => {
+                Optimized::unmoved(surface, &before.detection, Outcome::NoSymmetry)
+            }
             None => optimize(surface, &before.detection, settings, ctx)?,
         }
     };
@@ -231,6 +255,22 @@ fn warn_of(mended: &Mended, ctx: &mut Context<'_>) {
     }
 }
 
+/// What became of a shape.
+fn compared(before: &Detected, after: &Detected) -> Result<Distortion> {
+    let [old, new] = [before, after].map(|d| &d.working.surface);
+    let (Some(outline), Some(moved)) = (&before.wall, &after.wall) else {
+        return Ok(distortion(old, new, before.diagonal));
+    };
+    let body = Igarashi::new(outline.clone())?;
+    let inside = body.filled(&new.positions)?;
+    let inside = (body.sheet(), inside.as_slice());
+    Ok(distortion_of_outline(
+        (outline, moved),
+        inside,
+        before.diagonal,
+    ))
+}
+
 /// A shape whose mirrored surface lies nowhere further than this from it, % of D, is symmetric to the
 /// rounding of single-precision coordinates: not a bit of it is changed.
 const EXACT: f64 = 2e-5;
@@ -240,17 +280,21 @@ const WORSE: f64 = 0.01;
 
 impl Detected {
     fn find(
-        working: Working,
+        (working, wall): (Working, Option<Wall>),
         diagonal: f64,
         params: &DetectParams,
         ctx: &mut Context<'_>,
     ) -> Result<Self> {
-        let mut detection = detect(&working.surface, params, ctx)?;
+        let mut detection = match &wall {
+            Some(wall) => detect_in_plane(wall, params, ctx)?,
+            None => detect(&working.surface, params, ctx)?,
+        };
         kinds::keep_wanted(&mut detection, &params.wanted);
         Ok(Self {
             diagonal: diagonal / working.normalization.scale,
             detection,
             working,
+            wall,
         })
     }
 
@@ -278,7 +322,10 @@ impl Detected {
     pub fn asymmetry(&self, known: &[Plane], ctx: &Context<'_>) -> Result<Asymmetry> {
         let mut planes = known.to_vec();
         planes.extend(self.symmetries().iter().map(Symmetry::plane));
-        asymmetry(&self.working.surface, self.diagonal, &planes, ctx)
+        match &self.wall {
+            Some(wall) => asymmetry_of_outline(wall, self.diagonal, &planes, ctx),
+            None => asymmetry(&self.working.surface, self.diagonal, &planes, ctx),
+        }
     }
 }
 
@@ -310,9 +357,14 @@ impl Symmetrized {
             surface: before.working.surface.with_positions(done.positions),
             ..before.working.clone()
         };
+        let positions = &working.surface.positions;
+        let wall = before
+            .wall
+            .as_ref()
+            .map(|wall| wall.moved(positions.clone()));
         let diagonal = self.shape.diagonal();
         let mut after = ctx.stage("detect again", |ctx| {
-            Detected::find(working, diagonal, params, ctx)
+            Detected::find((working, wall), diagonal, params, ctx)
         })?;
         let faces = FaceSamples::of(&after);
         carry_ids(
@@ -326,10 +378,9 @@ impl Symmetrized {
             let measured = after.asymmetry(&known, ctx)?;
             ctx.progress(0.5)?;
             self.planes[1] = measured.plane;
-            let surfaces = [before, &after].map(|d| &d.working.surface);
             Ok(ResultReport {
                 asymmetry: AsymmetryReport::new(&measured, &after.working.normalization),
-                distortion: distortion(surfaces[0], surfaces[1], before.diagonal),
+                distortion: compared(before, &after)?,
                 energy: done.energy,
                 symmetries: symmetry::all(&after, &faces),
             })

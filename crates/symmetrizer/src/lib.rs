@@ -27,10 +27,11 @@ pub mod straighten;
 pub mod transform;
 
 pub use context::{CancelToken, Context, Event};
+pub use drawing::Drawing;
 pub use error::{Error, Result, Warning};
 pub use job::{
-    Detected, Measured, Symmetrized, detect_document, detect_in, measure_in, symmetrize,
-    symmetrize_with, unbend,
+    Detected, Drawn, Measured, Symmetrized, detect_document, detect_drawing, detect_in, measure_in,
+    symmetrize, symmetrize_drawing, symmetrize_with, unbend, unbend_drawing,
 };
 pub use optimize::Outcome;
 pub use params::Params;

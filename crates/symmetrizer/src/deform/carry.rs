@@ -16,7 +16,7 @@ pub fn carry(fine: &Surface, control: &Surface, moved: &[Point]) -> Vec<Point> {
 
 /// The rigid motion of each vertex's neighbourhood, the closest in the sense of least squares over its edges
 /// and its normal.
-pub(super) fn motions(before: &Surface, after: &Surface) -> Vec<Motion> {
+pub fn motions(before: &Surface, after: &Surface) -> Vec<Motion> {
     let count = before.positions.len();
     let mut moments = vec![Matrix3::zeros(); count];
     for corners in before.triangles.iter() {

@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::field::Reach;
 use crate::field::grow::Land;
 use crate::field::trust::Verdict;
-use crate::job::Detected;
+use crate::job::{Detected, plane};
 use crate::optimize::schedule::{Settings, prepared};
 use crate::optimize::{Optimized, Step, complete};
 use crate::report::{BendReport, KeptReport};
@@ -48,21 +48,28 @@ pub(super) fn unbend(
         bent: None,
         done: None,
     };
-    if params.when == When::Never || before.symmetries().is_empty() {
+    let plane = before.wall.is_some();
+    if params.when == When::Never || before.symmetries().is_empty() && !plane {
         return Ok(nothing);
     }
     let surface = &before.working.surface;
     let samples = &before.detection.samples;
-    let reach = Reach::new(samples, REACH);
+    let reach = match &before.wall {
+        Some(wall) => Reach::inside(wall, samples, REACH)?,
+        None => Reach::new(samples, REACH),
+    };
     let closest = ClosestPoint::new(surface);
-    let land = Land::new(surface, &closest, samples, &reach).with_stiffness(settings.stiffness);
+    let land = Land::new(surface, &closest, samples, &reach)
+        .with_stiffness(settings.stiffness)
+        .with_wall(settings.wall);
     let mirrors: Vec<_> = before.symmetries().iter().map(|s| s.q_from_p).collect();
     let found = ctx.stage("bend", |ctx| Bend::find(&land, &mirrors, ctx))?;
     let Some(bend) = found else {
         return Ok(nothing);
     };
     let mut report = BendReport::new(&bend);
-    let undone = if bend.degrees >= params.min_bend && wanted(report.verdict, params.when) {
+    let enough = bend.degrees >= params.min_bend || !plane::mirrored(before);
+    let undone = if enough && wanted(report.verdict, params.when) {
         undone(before, asymmetry, &land, &bend, params.share, settings, ctx)?
     } else {
         None
@@ -113,7 +120,8 @@ fn undone(
     }
     let now = surface.with_positions(straight.positions.clone());
     // What is not sure of the whole is done to the part that it is sure of.
-    let region = (bend.trust.verdict() == Verdict::Uncertain).then(|| bend.region(land));
+    let part = bend.trust.verdict() == Verdict::Uncertain && land.wall.is_none();
+    let region = part.then(|| bend.region(land));
     let within = Settings {
         region: region.as_deref(),
         ..settings

@@ -21,11 +21,7 @@ const NEXT: usize = 2;
 /// that over r; the same for a shape and its mirror image, as rings run round shapes to their left.
 pub fn signature(wall: &Wall, ring: usize, along: f64, r0: f64) -> Signature {
     let length = wall.length(ring);
-    let turn = |s: f64, r: f64| {
-        let [a, b, c] = [s - r, s, s + r].map(|s| wall.place(ring, s));
-        let (u, v) = (b - a, c - b);
-        (u.x * v.y - u.y * v.x).atan2(u.dot(&v))
-    };
+    let turn = |s: f64, r: f64| turning(wall, ring, s, r);
     let at = |scale: usize| {
         let r = r0 * f64::from(1 << scale);
         if r > AROUND * length {
@@ -35,6 +31,13 @@ pub fn signature(wall: &Wall, ring: usize, along: f64, r0: f64) -> Signature {
         Some([turn(along, r).asinh(), change.abs().asinh()])
     };
     Signature(std::array::from_fn::<_, SCALES, _>(at))
+}
+
+/// The angle by which a ring turns at the length `along` from the chord over `radius` before to that behind, radians.
+pub fn turning(wall: &Wall, ring: usize, along: f64, radius: f64) -> f64 {
+    let [a, b, c] = [-radius, 0.0, radius].map(|way| wall.place(ring, along + way));
+    let (u, v) = (b - a, c - b);
+    (u.x * v.y - u.y * v.x).atan2(u.dot(&v))
 }
 
 /// Samples the outline of `describer`'s `wall` (section 2): `params.outline` of them over its length.

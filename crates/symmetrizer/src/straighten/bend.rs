@@ -80,15 +80,19 @@ impl Bend {
         ctx: &mut Context<'_>,
     ) -> Result<Option<Self>> {
         let grown = find(land, mirrors, ctx)?;
-        if spread(land, &grown) < LEAST {
+        // An outline without a line that holds for it may have one all the same, only rougher.
+        let known = land.wall.is_none() || !mirrors.is_empty();
+        if known && spread(land, &grown) < LEAST {
             return Ok(None);
         }
         let settled = settle(land, &grown, ctx)?;
         let trust = Trust::of(land, &settled);
         let field = match trust.verdict() {
             Verdict::Refuse => settled.clone(),
-            Verdict::Uncertain => settled.of(&within(&trust, &trust.region(land), &settled)),
-            Verdict::Accept => settled.of(&trust.trusted),
+            Verdict::Uncertain if land.wall.is_none() => {
+                settled.of(&within(&trust, &trust.region(land), &settled))
+            }
+            Verdict::Uncertain | Verdict::Accept => settled.of(&trust.trusted),
         };
         let turns = rotations::solved(land, &field)?;
         let degrees = span(&shared(&turns, &field));

@@ -10,13 +10,16 @@ use crate::apply::measure::refine::distances;
 use crate::apply::measure::search::local_minima;
 use crate::context::Context;
 use crate::error::{Error, Result};
-use crate::geom::Point;
+use crate::geom::{Ambient, Point};
 use crate::sample::uniform::uniform;
+use crate::shape::wall::Wall;
 use crate::shape::{ClosestPoint, Surface};
 use crate::transform::isometry::Plane;
 
 /// Samples mirrored (docs/definitions.md).
 const SAMPLES: usize = 20_000;
+/// On an outline.
+const ON_OUTLINE: usize = 5_000;
 /// A plane is near-equal when its mean is at most this multiple of the best; ours.
 const NEAR_RATIO: f64 = 1.25;
 /// ... or at most this much above the best, in percent of D; ours.
@@ -66,9 +69,39 @@ pub fn asymmetry(
     candidates: &[Plane],
     ctx: &Context<'_>,
 ) -> Result<Asymmetry> {
-    let samples = samples(surface, diagonal, ctx)?;
+    measured(
+        surface,
+        diagonal,
+        candidates,
+        (SAMPLES, Ambient::Space),
+        ctx,
+    )
+}
+
+/// The same of an outline, over its length: `wall` is the wall over it, the planes are at right angles to it.
+///
+/// # Errors
+/// As [`asymmetry`].
+pub fn asymmetry_of_outline(
+    wall: &Wall,
+    diagonal: f64,
+    candidates: &[Plane],
+    ctx: &Context<'_>,
+) -> Result<Asymmetry> {
+    let how = (ON_OUTLINE, Ambient::Plane);
+    measured(&wall.surface, diagonal, candidates, how, ctx)
+}
+
+fn measured(
+    surface: &Surface,
+    diagonal: f64,
+    candidates: &[Plane],
+    (count, ambient): (usize, Ambient),
+    ctx: &Context<'_>,
+) -> Result<Asymmetry> {
+    let samples = samples(surface, diagonal, count, ctx)?;
     let closest = ClosestPoint::new(surface);
-    let minima = local_minima(&samples, candidates, &closest);
+    let minima = local_minima(&samples, candidates, &closest, ambient);
     ctx.check()?;
     let percent = 100.0 / diagonal;
     let mut near = minima.into_iter().map(|f| NearPlane {
@@ -112,12 +145,17 @@ pub fn per_vertex(surface: &Surface, diagonal: f64, plane: &Plane) -> Vec<f64> {
         .collect()
 }
 
-fn samples(surface: &Surface, diagonal: f64, ctx: &Context<'_>) -> Result<Vec<Point>> {
+fn samples(
+    surface: &Surface,
+    diagonal: f64,
+    count: usize,
+    ctx: &Context<'_>,
+) -> Result<Vec<Point>> {
     ctx.check()?;
     if !(diagonal > 0.0 && diagonal.is_finite()) {
         return Err(failed("the bounding-box diagonal is not positive"));
     }
-    let samples = uniform(surface, SAMPLES, &mut ctx.rng("measure"));
+    let samples = uniform(surface, count, &mut ctx.rng("measure"));
     if samples.is_empty() {
         return Err(failed("the surface has no finite area"));
     }

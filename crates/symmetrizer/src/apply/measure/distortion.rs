@@ -68,7 +68,7 @@ pub fn distortion(before: &Surface, after: &Surface, diagonal: f64) -> Distortio
 }
 
 /// Area-weighted rms and maximum of the vertices' way from `before` to `positions`.
-fn displacement(before: &Surface, positions: &[Point]) -> (f64, f64) {
+pub(super) fn displacement(before: &Surface, positions: &[Point]) -> (f64, f64) {
     let mut sum = 0.0;
     let mut max: f64 = 0.0;
     for ((p, q), w) in before
@@ -93,7 +93,7 @@ fn edges(surface: &Surface) -> Vec<[u32; 2]> {
 }
 
 /// The `p`-quantile of |ln(l' / l)| over the edges.
-fn edge_stretch(before: &Surface, after: &Surface, p: f64) -> f64 {
+pub(super) fn edge_stretch(before: &Surface, after: &Surface, p: f64) -> f64 {
     let length = |s: &Surface, [u, v]: [u32; 2]| {
         (s.positions[u as usize] - s.positions[v as usize])
             .norm()

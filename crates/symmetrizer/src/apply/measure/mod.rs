@@ -3,14 +3,16 @@
 pub mod asymmetry;
 pub mod curvature;
 pub mod distortion;
+pub mod plane;
 mod refine;
 mod report;
 mod search;
 mod volume;
 
-pub use asymmetry::{Asymmetry, NearPlane, asymmetry, per_vertex};
+pub use asymmetry::{Asymmetry, NearPlane, asymmetry, asymmetry_of_outline, per_vertex};
 pub use curvature::{curvature_correlation, mean_curvature};
 pub use distortion::{Distortion, distortion, inverted_faces};
+pub use plane::distortion_of_outline;
 pub use report::{AsymmetryReport, Measure, NearReport, PlaneReport};
 
 /// The smallest of `sorted` that at least the share `p` of them do not exceed; 0 of none.

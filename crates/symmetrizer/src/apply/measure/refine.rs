@@ -12,7 +12,7 @@
 
 use rayon::prelude::*;
 
-use crate::geom::{Matrix3, Point, Vector, any_orthogonal};
+use crate::geom::{Ambient, Matrix3, Point, Vector, any_orthogonal};
 use crate::shape::ClosestPoint;
 use crate::transform::isometry::Plane;
 
@@ -56,6 +56,7 @@ pub(super) fn descend(
     closest: &ClosestPoint,
     rounds: usize,
     gain: f64,
+    ambient: Ambient,
 ) -> Fitted {
     let matches = first_matches(&start, samples, closest);
     let mut state = State::new(start, matches);
@@ -63,7 +64,7 @@ pub(super) fn descend(
     let mut length = LONGEST;
     for _ in 0..rounds {
         let goal = state.mean * (1.0 - gain);
-        let Some(next) = state.lower(&mut length, closest) else {
+        let Some(next) = state.lower(&mut length, closest, ambient) else {
             break;
         };
         state = next;
@@ -96,10 +97,10 @@ impl State {
 
     /// A state of lower mean along the Gauss-Newton step, if there is one; `length`, in steps, is
     /// where the search begins and becomes what succeeded.
-    fn lower(&self, length: &mut f64, closest: &ClosestPoint) -> Option<Self> {
-        let step = gauss_newton(&self.plane, &self.matches, FLOOR * self.mean)?;
+    fn lower(&self, length: &mut f64, closest: &ClosestPoint, ambient: Ambient) -> Option<Self> {
+        let step = gauss_newton(&self.plane, &self.matches, FLOOR * self.mean, ambient)?;
         while *length >= SHORTEST {
-            let plane = moved(&self.plane, &(step * *length));
+            let plane = moved(&self.plane, &(step * *length), ambient);
             let trial = Self::new(plane, next_matches(&plane, &self.matches, closest));
             if trial.mean < self.mean {
                 return Some(trial);
@@ -156,9 +157,9 @@ fn mean_distance(matches: &[Match]) -> f64 {
 }
 
 /// The step (a, b, c); none where the samples do not determine it.
-fn gauss_newton(plane: &Plane, matches: &[Match], floor: f64) -> Option<Vector> {
+fn gauss_newton(plane: &Plane, matches: &[Match], floor: f64, ambient: Ambient) -> Option<Vector> {
     let n = plane.normal;
-    let (e1, e2) = tangents(&n);
+    let (e1, e2) = tangents(&n, ambient);
     let mut h = Matrix3::zeros();
     let mut g = Vector::zeros();
     for m in matches {
@@ -177,15 +178,19 @@ fn gauss_newton(plane: &Plane, matches: &[Match], floor: f64) -> Option<Vector> 
     step.iter().all(|v| v.is_finite()).then_some(step)
 }
 
-fn moved(plane: &Plane, step: &Vector) -> Plane {
-    let (e1, e2) = tangents(&plane.normal);
+fn moved(plane: &Plane, step: &Vector, ambient: Ambient) -> Plane {
+    let (e1, e2) = tangents(&plane.normal, ambient);
     Plane {
         normal: (plane.normal + step.x * e1 + step.y * e2).normalize(),
         offset: plane.offset + step.z,
     }
 }
 
-fn tangents(n: &Vector) -> (Vector, Vector) {
+/// In the plane there is one, and nothing for the other.
+fn tangents(n: &Vector, ambient: Ambient) -> (Vector, Vector) {
+    if ambient == Ambient::Plane {
+        return (Vector::z().cross(n), Vector::zeros());
+    }
     let e1 = any_orthogonal(n);
     (e1, n.cross(&e1))
 }
@@ -227,7 +232,7 @@ mod tests {
             let angle = f64::from(k);
             let normal = Vector::new(angle.cos(), angle.sin(), (angle * 0.7).sin()).normalize();
             let start = Plane::through(&Point::new(0.5, 0.6, 0.1), normal);
-            let end = descend(start, samples, &closest, 15, 1e-4);
+            let end = descend(start, samples, &closest, 15, 1e-4, Ambient::Space);
             assert!(end.mean <= mean(&start));
             // The searches on the way are bounded by the last closest points; the answer is not.
             assert!((end.mean - mean(&end.plane)).abs() < 1e-12);

@@ -7,7 +7,7 @@ use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use rayon::prelude::*;
 
 use crate::apply::measure::refine::{Fitted, descend, image};
-use crate::geom::{Matrix3, Point, Vector, sorted_eigen};
+use crate::geom::{Ambient, Matrix3, Point, Vector, sorted_eigen};
 use crate::shape::ClosestPoint;
 use crate::transform::isometry::Plane;
 
@@ -116,15 +116,16 @@ pub(super) fn local_minima(
     samples: &[Point],
     candidates: &[Plane],
     closest: &ClosestPoint,
+    ambient: Ambient,
 ) -> Vec<Fitted> {
     let mut planes: Vec<Plane> = candidates.to_vec();
-    planes.extend(promising(samples));
+    planes.extend(promising(samples, ambient));
     let mut fitted = Vec::new();
     for sieve in &SIEVES {
         let subset = strided(samples, sieve.samples);
         fitted = planes
             .par_iter()
-            .map(|&plane| descend(plane, &subset, closest, sieve.rounds, sieve.gain))
+            .map(|&plane| descend(plane, &subset, closest, sieve.rounds, sieve.gain, ambient))
             .collect();
         fitted = distinct(fitted, &sieve.apart);
         fitted.truncate(sieve.pass);
@@ -154,7 +155,7 @@ fn strided(samples: &[Point], count: usize) -> Vec<Point> {
 }
 
 /// The well-separated directions in which the points mirror best, as planes through their centroid.
-fn promising(samples: &[Point]) -> Vec<Plane> {
+fn promising(samples: &[Point], ambient: Ambient) -> Vec<Plane> {
     let targets: Vec<[f64; 3]> = strided(samples, TARGETS)
         .into_iter()
         .map(Into::into)
@@ -164,7 +165,7 @@ fn promising(samples: &[Point]) -> Vec<Plane> {
     };
     let scored = strided(samples, SCORED);
     let (centroid, axes) = principal_axes(samples);
-    let fitted = directions(&axes)
+    let fitted = directions(&axes, ambient)
         .into_par_iter()
         .map(|n| {
             let plane = Plane::through(&centroid, n);
@@ -205,7 +206,17 @@ fn principal_axes(samples: &[Point]) -> (Point, Matrix3) {
 
 /// The principal axes and a Fibonacci half sphere laid into them: evenly spread, and turning with
 /// the shape, so that a turned shape is searched in the same directions.
-fn directions(axes: &Matrix3) -> Vec<Vector> {
+fn directions(axes: &Matrix3, ambient: Ambient) -> Vec<Vector> {
+    if ambient == Ambient::Plane {
+        let longest = axes.column(2);
+        let turned = |i: usize| {
+            let angle = std::f64::consts::PI * i as f64 / DIRECTIONS as f64;
+            let (sin, cos) = angle.sin_cos();
+            let (x, y) = (longest.x, longest.y);
+            Vector::new(cos * x - sin * y, sin * x + cos * y, 0.0).normalize()
+        };
+        return (0..DIRECTIONS).map(turned).collect();
+    }
     let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
     let spread = (0..DIRECTIONS).map(|i| {
         let z = (i as f64 + 0.5) / DIRECTIONS as f64;

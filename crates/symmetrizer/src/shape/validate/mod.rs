@@ -51,8 +51,8 @@ pub struct Validation {
 impl Validation {
     /// The counts of `mesh`, of which `working` is the working surface.
     pub fn of(mesh: &Mesh, working: &Working) -> Self {
-        if working.cloud.is_some() {
-            return Self::of_cloud(mesh, working);
+        if mesh.polygons.is_empty() {
+            return Self::of_points(mesh, working);
         }
         let surface = &working.surface;
         let used = working.vertex_of_document.iter().flatten().count();
@@ -76,9 +76,9 @@ impl Validation {
         }
     }
 
-    /// The counts of a cloud: of its points alone, because a disc's triangles and edges are not the
-    /// document's.
-    fn of_cloud(mesh: &Mesh, working: &Working) -> Self {
+    /// The counts of a cloud or an outline: of its points alone, because the working triangles and edges are
+    /// not the document's.
+    fn of_points(mesh: &Mesh, working: &Working) -> Self {
         let used = working.vertex_of_document.iter().flatten().count();
         Self {
             unused_vertices: mesh.positions.len() - used,

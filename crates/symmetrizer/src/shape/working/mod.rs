@@ -15,6 +15,7 @@ use crate::geom::{Point, Vector};
 use crate::shape::cloud::{CORNERS, Discs};
 use crate::shape::mesh::Mesh;
 use crate::shape::surface::Surface;
+use crate::shape::wall::Wall;
 
 use faces::usable;
 use normalization::normalize;
@@ -113,6 +114,23 @@ impl Working {
             }),
             document_of_vertex: each_corner(&discs.document),
         })
+    }
+
+    /// The wall over an outline as a working surface; its document has a vertex for each edge of the outline, where
+    /// it starts, and no faces.
+    pub fn of_wall(wall: &Wall) -> Self {
+        let edges = wall.edges() as u32;
+        let doubled = |e: u32| [e, e];
+        Self {
+            surface: wall.surface.clone(),
+            normalization: wall.normalization,
+            vertex_of_document: (0..edges).map(|e| Some(2 * e)).collect(),
+            document_of_vertex: (0..edges).flat_map(doubled).collect(),
+            polygon_of_face: (0..edges).flat_map(doubled).collect(),
+            document_face: (0..edges).flat_map(doubled).collect(),
+            mended: Mended::default(),
+            cloud: None,
+        }
     }
 
     /// The document with its vertices moved as the working vertices were; a vertex that did not

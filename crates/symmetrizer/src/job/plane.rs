@@ -1,0 +1,152 @@
+//! Shapes of the plane: a drawing's outline goes through the stages as the wall over it, and the drawing follows.
+
+use crate::context::Context;
+use crate::deform::{Igarashi, Stiffness, carry};
+use crate::drawing::{Drawing, Outline};
+use crate::error::{Error, Result};
+use crate::geom::{Matrix3, Point, Vector};
+use crate::job::{Detected, Symmetrized, made};
+use crate::params::Params;
+use crate::shape::wall::Wall;
+use crate::shape::working::{Normalization, Working};
+use crate::shape::{ClosestPoint, Mesh, Surface};
+
+/// A drawing made symmetric, and how.
+pub struct Drawn {
+    /// The result.
+    pub drawing: Drawing,
+    /// What was done to its outline; the vertices of its shape are the corners of that.
+    pub job: Symmetrized,
+}
+
+/// Share of an outline that one line must hold for: a drawing of which only a part has a line, straight or bent, is
+/// left as it is.
+const WHOLE: f64 = 0.7;
+
+/// Whether one mirror holds for the whole of a shape of the plane, or the shape is one of space.
+pub(super) fn mirrored(found: &Detected) -> bool {
+    let holds = found.symmetries().iter().any(|s| s.area_fraction >= WHOLE);
+    found.wall.is_none() || holds
+}
+
+/// Finds the symmetries of a drawing's outline.
+///
+/// # Errors
+/// [`Error::Input`] for a drawing without an area, [`Error::Params`], [`Error::Cancelled`].
+pub fn detect_drawing(
+    drawing: &Drawing,
+    params: &Params,
+    ctx: &mut Context<'_>,
+) -> Result<(Mesh, Detected)> {
+    params.check()?;
+    find(drawing.outline(), params, ctx)
+}
+
+/// Makes a drawing symmetric, as [`crate::symmetrize`] does a mesh.
+///
+/// # Errors
+/// Those of [`detect_drawing`]; [`Error::Numerical`].
+pub fn symmetrize_drawing(
+    drawing: &Drawing,
+    params: &Params,
+    ctx: &mut Context<'_>,
+) -> Result<Drawn> {
+    work(drawing, params, false, ctx)
+}
+
+/// Undoes the bend of a drawing and does nothing else, as [`crate::unbend`] does of a mesh.
+///
+/// # Errors
+/// Those of [`symmetrize_drawing`].
+pub fn unbend_drawing(drawing: &Drawing, params: &Params, ctx: &mut Context<'_>) -> Result<Drawn> {
+    let mut params = params.clone();
+    params.optimize.final_steps = 0;
+    params.optimize.finish_rounds = 0;
+    work(drawing, &params, true, ctx)
+}
+
+fn work(drawing: &Drawing, params: &Params, only: bool, ctx: &mut Context<'_>) -> Result<Drawn> {
+    params.check()?;
+    for warning in drawing.warnings() {
+        ctx.warn(warning.0.clone());
+    }
+    let (mesh, before) = find(drawing.outline(), params, ctx)?;
+    let job = made(&mesh, before, &Stiffness::default(), params, only, ctx)?;
+    let drawing = match (&job.before.wall, &job.after) {
+        (Some(wall), Some(after)) => ctx.stage("redraw", |_| {
+            let follow = Follow::new(wall, &after.working.surface.positions)?;
+            drawing.deformed(&|x| follow.place(&x))
+        })?,
+        _ => drawing.clone(),
+    };
+    Ok(Drawn { drawing, job })
+}
+
+/// The mirrors of an outline, and the mesh of its corners.
+fn find(outline: &Outline, params: &Params, ctx: &mut Context<'_>) -> Result<(Mesh, Detected)> {
+    if outline.is_empty() {
+        return Err(Error::input(
+            "the drawing has no area",
+            "it needs a closed path that is filled, or a stroke that has a width",
+        ));
+    }
+    let rings: Vec<Vec<Point>> = outline.rings.iter().map(|r| r.points.clone()).collect();
+    let wall = Wall::new(&rings)?;
+    let corners = (0..wall.edges()).map(|e| wall.normalization.to_document(&wall.start(e)));
+    let mesh = Mesh {
+        positions: corners.collect(),
+        ..Mesh::default()
+    };
+    let detect = params.detect().mirrors_only();
+    let diagonal = outline.diagonal();
+    let working = Working::of_wall(&wall);
+    let found = ctx.stage("detect", |ctx| {
+        Detected::find((working, Some(wall)), diagonal, &detect, ctx)
+    })?;
+    Ok((mesh, found))
+}
+
+/// Where all of the plane goes with an outline: with the triangles inside; around it, with the nearest place on it.
+struct Follow {
+    normalization: Normalization,
+    rest: Surface,
+    closest: ClosestPoint,
+    /// Where the vertices of the inside go, and how their surroundings turn.
+    places: Vec<Point>,
+    rotations: Vec<Matrix3>,
+}
+
+impl Follow {
+    /// With `wall`, whose vertices go to `positions`.
+    fn new(wall: &Wall, positions: &[Point]) -> Result<Self> {
+        let body = Igarashi::new(wall.clone())?;
+        let places = body.filled(positions)?;
+        let rest = body.sheet().surface.clone();
+        let moved = rest.with_positions(places.clone());
+        let motions = carry::motions(&rest, &moved);
+        Ok(Self {
+            normalization: wall.normalization,
+            closest: ClosestPoint::new(&rest),
+            rotations: motions.iter().map(|m| m.rotation).collect(),
+            places,
+            rest,
+        })
+    }
+
+    /// Where a place of the drawing goes: each corner of the triangle there, or nearest to it, takes it along as it
+    /// turns itself.
+    fn place(&self, x: &Point) -> Point {
+        let x = self.normalization.to_working(x);
+        let Some(hit) = self.closest.nearest(&x, f64::INFINITY) else {
+            return x;
+        };
+        let corners = self.rest.triangles[hit.at.face as usize];
+        let carried = corners.iter().zip(hit.at.bary).map(|(&v, b)| {
+            let v = v as usize;
+            b * (self.places[v].coords + self.rotations[v] * (x - self.rest.positions[v]))
+        });
+        let moved = Point::from(carried.sum::<Vector>());
+        let moved = self.normalization.to_document(&moved);
+        Point::new(moved.x, moved.y, 0.0)
+    }
+}
