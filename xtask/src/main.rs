@@ -2,6 +2,7 @@
 
 mod bench_deform;
 mod bench_detect;
+mod bench_plane;
 mod bench_straighten;
 mod constraints;
 mod data;
@@ -25,6 +26,7 @@ struct Cli {
 enum Verb {
     BenchDeform(bench_deform::Args),
     BenchDetect(bench_detect::Args),
+    BenchPlane(bench_plane::Args),
     BenchStraighten(bench_straighten::Args),
     GalleryDeform(gallery_deform::Args),
 }
@@ -46,6 +48,7 @@ fn main() -> ExitCode {
     let answer = match &cli.verb {
         Verb::BenchDeform(args) => bench_deform::run(args),
         Verb::BenchDetect(args) => bench_detect::run(args),
+        Verb::BenchPlane(args) => bench_plane::run(args),
         Verb::BenchStraighten(args) => bench_straighten::run(args),
         Verb::GalleryDeform(args) => gallery_deform::run(args),
     };

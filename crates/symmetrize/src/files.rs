@@ -2,11 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use symmetrizer::drawing;
 use symmetrizer::picture::Canvas;
 use symmetrizer::report::to_json;
 use symmetrizer::shape::Document;
 use symmetrizer::shape::io::{Format, Output, companions, encode, losses};
 use symmetrizer::{Error, Result};
+
+use crate::input::{Subject, is_drawing};
 
 /// How a picture is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,8 +18,8 @@ enum PictureFormat {
     Svg,
 }
 
-/// A reserved mesh file.
-pub struct MeshFile(Output, Format);
+/// A reserved file for a shape of space or of the plane.
+pub struct ShapeFile(Output);
 
 /// A reserved picture file.
 pub struct PictureFile(Output, PictureFormat);
@@ -24,19 +27,40 @@ pub struct PictureFile(Output, PictureFormat);
 /// A reserved report file.
 pub struct ReportFile(Output);
 
-impl MeshFile {
+impl ShapeFile {
     /// Reserves `path`; its extension is the format.
     pub fn reserve(path: &Path) -> Result<Self> {
-        let format = Format::of_path(path)?;
-        Ok(Self(Output::create(path)?, format))
+        if !is_drawing(path) {
+            Format::of_path(path)?;
+        }
+        Ok(Self(Output::create(path)?))
+    }
+
+    /// Fails where the format is one of the other kind.
+    pub fn check(&self, subject: &Subject) -> Result<()> {
+        let path = self.0.target();
+        match subject {
+            Subject::Shape(_) => Format::of_path(path).map(|_| ()),
+            Subject::Drawing(_) => drawing::Format::of_path(path).map(|_| ()),
+        }
     }
 
     /// What of `document` the file does not hold, and which files it needs beside it.
-    pub fn warnings(&self, document: &Document) -> Vec<String> {
+    pub fn warnings(&self, subject: &Subject) -> Vec<String> {
+        match subject {
+            Subject::Shape(document) => self.warnings_of(document),
+            Subject::Drawing(_) => Vec::new(),
+        }
+    }
+
+    fn warnings_of(&self, document: &Document) -> Vec<String> {
         let file = self.0.target();
+        let Ok(format) = Format::of_path(file) else {
+            return Vec::new();
+        };
         let name = file.file_name().unwrap_or(file.as_os_str());
         let name = name.to_string_lossy();
-        let lost = losses(document, self.1).into_iter();
+        let lost = losses(document, format).into_iter();
         let lost = lost.map(|lost| format!("{name} does not hold {lost}"));
         let folder = file.parent().unwrap_or(Path::new("."));
         // One line of an OBJ file may name several.
@@ -44,15 +68,25 @@ impl MeshFile {
             let all = || name.split_whitespace().all(|n| folder.join(n).exists());
             folder.join(name).exists() || all()
         };
-        let needed = companions(document, self.1).into_iter();
+        let needed = companions(document, format).into_iter();
         let missing = needed.filter(|needed| !is_there(needed));
         let missing = missing.map(|m| format!("{name} names the file {m}: copy it beside it"));
         lost.chain(missing).collect()
     }
 
     /// Writes the shape; the file appears with [`commit`].
-    pub fn write(mut self, document: &Document) -> Result<Output> {
-        self.0.write(|w| encode(document, self.1, w))?;
+    pub fn write(mut self, subject: &Subject) -> Result<Output> {
+        let path = self.0.target().to_owned();
+        match subject {
+            Subject::Shape(document) => {
+                let format = Format::of_path(&path)?;
+                self.0.write(|w| encode(document, format, w))?;
+            }
+            Subject::Drawing(drawing) => {
+                let format = drawing::Format::of_path(&path)?;
+                self.0.write(|w| drawing.encode(format, w))?;
+            }
+        }
         Ok(self.0)
     }
 }

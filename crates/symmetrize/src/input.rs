@@ -3,12 +3,89 @@
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
+use clap::Args;
+use symmetrizer::drawing::{self, Drawing, Reading};
 use symmetrizer::shape::models::Creature;
 use symmetrizer::shape::{Document, io};
-use symmetrizer::{Context, Error, Mesh, Result};
+use symmetrizer::{
+    Context, Detected, Error, Measured, Mesh, Params, Result, detect_document, detect_drawing,
+    measure_drawing, measure_in,
+};
 
 /// Help for inputs.
-pub const HELP: &str = "Shape file (obj, ply, off, stl, gltf, glb, 3mf, xyz, txt), or model:creature or model:creature-at-rest, which are generated";
+pub const HELP: &str = "Shape file (obj, ply, off, stl, gltf, glb, 3mf, xyz, txt), drawing (svg, png, jpg, json), or model:creature or model:creature-at-rest, which are generated";
+
+/// What a file holds.
+pub enum Subject {
+    /// A shape of space.
+    Shape(Document),
+    /// A shape of the plane.
+    Drawing(Drawing),
+}
+
+impl Subject {
+    /// Finds its symmetries; with the mesh that the report is about.
+    pub fn detect(&self, params: &Params, ctx: &mut Context<'_>) -> Result<(Mesh, Detected)> {
+        match self {
+            Self::Shape(document) => {
+                let found = detect_document(document, params, ctx)?;
+                Ok((document.mesh.clone(), found))
+            }
+            Self::Drawing(drawing) => detect_drawing(drawing, params, ctx),
+        }
+    }
+
+    /// Measures it; with the mesh that the report is about.
+    pub fn measure(
+        &self,
+        original: Option<&Self>,
+        ctx: &mut Context<'_>,
+    ) -> Result<(Mesh, Measured)> {
+        match (self, original) {
+            (Self::Shape(document), None | Some(Self::Shape(_))) => {
+                let original = original.and_then(Self::mesh);
+                let measured = measure_in(&document.mesh, original, ctx)?;
+                Ok((document.mesh.clone(), measured))
+            }
+            (Self::Drawing(drawing), None) => measure_drawing(drawing, ctx),
+            _ => Err(Error::params(
+                "--against",
+                "compares two meshes of space; drawings keep no vertices to compare",
+            )),
+        }
+    }
+
+    fn mesh(&self) -> Option<&Mesh> {
+        match self {
+            Self::Shape(document) => Some(&document.mesh),
+            Self::Drawing(_) => None,
+        }
+    }
+}
+
+/// Whether the file's extension is that of a drawing and of nothing else.
+pub fn is_drawing(path: &Path) -> bool {
+    drawing::Format::of_path(path).is_ok_and(|format| format != drawing::Format::Obj)
+}
+
+/// The flag for pictures that are read.
+#[derive(Args)]
+pub struct Bitmaps {
+    /// Of a bitmap (png, jpg), how dark the shape's border is, 0 (white or clear) to 1 (black) [default: the
+    /// middle between its light and its dark]
+    #[arg(long, value_name = "SHARE")]
+    threshold: Option<f64>,
+}
+
+impl Bitmaps {
+    /// Fails where the flag was given for what is no bitmap.
+    fn check(&self) -> Result<()> {
+        match self.threshold {
+            Some(_) => Err(Error::params("--threshold", "is for bitmaps: png and jpg")),
+            None => Ok(()),
+        }
+    }
+}
 
 /// The argument INPUT.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,6 +109,23 @@ impl Input {
     /// Reads or generates the shape, as the stage `read` of `ctx`.
     pub fn read(&self, ctx: &mut Context<'_>) -> Result<Document> {
         self.read_with(io::read, ctx)
+    }
+
+    /// Reads or generates the shape, or the drawing that the file is, as the stage `read` of `ctx`.
+    pub fn subject(&self, bitmaps: &Bitmaps, ctx: &mut Context<'_>) -> Result<Subject> {
+        if let Some(path) = self.path().filter(|path| is_drawing(path)) {
+            let reading = Reading {
+                threshold: bitmaps.threshold,
+            };
+            let drawing = ctx.stage("read", |_| drawing::read(path, &reading))?;
+            return Ok(Subject::Drawing(drawing));
+        }
+        bitmaps.check()?;
+        let document = self.read(ctx)?;
+        Ok(match Drawing::of_flat(&document) {
+            Some(drawing) => Subject::Drawing(drawing),
+            None => Subject::Shape(document),
+        })
     }
 
     /// The same, with faces that cannot be used.

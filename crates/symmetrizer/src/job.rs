@@ -27,7 +27,7 @@ use crate::transform::{Elements, Plane};
 
 pub use bent::Bent;
 pub use measured::{Measured, measure_in};
-pub use plane::{Drawn, detect_drawing, symmetrize_drawing, unbend_drawing};
+pub use plane::{Drawn, detect_drawing, measure_drawing, symmetrize_drawing, unbend_drawing};
 
 /// A state of a shape and the symmetries found in it.
 pub struct Detected {

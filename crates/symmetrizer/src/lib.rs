@@ -30,8 +30,9 @@ pub use context::{CancelToken, Context, Event};
 pub use drawing::Drawing;
 pub use error::{Error, Result, Warning};
 pub use job::{
-    Detected, Drawn, Measured, Symmetrized, detect_document, detect_drawing, detect_in, measure_in,
-    symmetrize, symmetrize_drawing, symmetrize_with, unbend, unbend_drawing,
+    Detected, Drawn, Measured, Symmetrized, detect_document, detect_drawing, detect_in,
+    measure_drawing, measure_in, symmetrize, symmetrize_drawing, symmetrize_with, unbend,
+    unbend_drawing,
 };
 pub use optimize::Outcome;
 pub use params::Params;

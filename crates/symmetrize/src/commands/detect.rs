@@ -3,13 +3,13 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use symmetrizer::Result;
 use symmetrizer::job::pictures;
 use symmetrizer::report::DetectReport;
-use symmetrizer::{Result, detect_document};
 
 use crate::Answer;
 use crate::files::{PictureFile, ReportFile, check_distinct, commit};
-use crate::input::{self, Input};
+use crate::input::{self, Bitmaps, Input};
 use crate::options::{Desk, Sought, Tuning};
 use crate::summary;
 
@@ -28,6 +28,8 @@ pub struct DetectArgs {
     #[arg(long, value_name = "FILE")]
     picture: Option<PathBuf>,
     #[command(flatten)]
+    bitmaps: Bitmaps,
+    #[command(flatten)]
     sought: Sought,
     #[command(flatten)]
     tuning: Tuning,
@@ -43,14 +45,15 @@ pub fn detect(args: &DetectArgs, desk: &Desk) -> Result<Answer> {
     let report_file = report.map(ReportFile::reserve).transpose()?;
     let picture_file = picture.map(PictureFile::reserve).transpose()?;
     let mut ctx = desk.context();
-    let document = args.input.read(&mut ctx)?;
-    let found = detect_document(&document, &params, &mut ctx).map_err(|e| args.input.blame(e))?;
+    let input = args.input.subject(&args.bitmaps, &mut ctx)?;
+    let found = input.detect(&params, &mut ctx);
+    let (mesh, found) = found.map_err(|e| args.input.blame(e))?;
     let mut complete = Vec::new();
     if let Some(file) = picture_file {
         let draw = || file.write(&pictures::symmetries(&found, &args.input.title()));
         complete.push(ctx.stage("picture", |_| draw())?);
     }
-    let mut report = DetectReport::new(&document.mesh, &found, &params, &ctx);
+    let mut report = DetectReport::new(&mesh, &found, &params, &ctx);
     report.input.shape.file = Some(args.input.name());
     if let Some(file) = report_file {
         report.run = Some(desk.progress.report());

@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use symmetrizer::Result;
 use symmetrizer::report::MeasureReport;
-use symmetrizer::{Result, measure_in};
 
 use crate::Answer;
 use crate::files::{ReportFile, check_distinct, commit};
-use crate::input::{self, Input};
+use crate::input::{self, Bitmaps, Input};
 use crate::options::Desk;
 use crate::summary;
 
@@ -23,6 +23,8 @@ pub struct MeasureArgs {
     /// Also measure the distortion from this shape, which has the same vertices and faces
     #[arg(long, value_name = "ORIGINAL")]
     against: Option<Input>,
+    #[command(flatten)]
+    bitmaps: Bitmaps,
     /// Write everything in figures here, as JSON
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -36,14 +38,12 @@ pub fn measure(args: &MeasureArgs, desk: &Desk) -> Result<Answer> {
     }
     let file = path.map(ReportFile::reserve).transpose()?;
     let mut ctx = desk.context();
-    let mesh = args.input.read(&mut ctx)?.mesh;
-    let original = args
-        .against
-        .as_ref()
-        .map(|i| Ok(i.read(&mut ctx)?.mesh))
-        .transpose()?;
-    let measured =
-        measure_in(&mesh, original.as_ref(), &mut ctx).map_err(|e| args.input.blame(e))?;
+    let input = args.input.subject(&args.bitmaps, &mut ctx)?;
+    let original = args.against.as_ref();
+    let original = original.map(|i| i.subject(&args.bitmaps, &mut ctx));
+    let original = original.transpose()?;
+    let measured = input.measure(original.as_ref(), &mut ctx);
+    let (mesh, measured) = measured.map_err(|e| args.input.blame(e))?;
     let mut report = MeasureReport::new(&mesh, &measured, &ctx);
     report.input.file = Some(args.input.name());
     report.against = args.against.as_ref().map(Input::name);

@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use symmetrizer::Result;
 use symmetrizer::job::pictures;
-use symmetrizer::{Result, detect_document};
 
 use crate::Answer;
 use crate::files::{PictureFile, check_distinct, commit};
-use crate::input::{self, Input};
+use crate::input::{self, Bitmaps, Input};
 use crate::options::{Desk, Sought, Tuning};
 
 /// Plot the votes for symmetries in transformation space
@@ -24,6 +24,8 @@ pub struct PlotArgs {
     #[arg(long, short, value_name = "FILE")]
     output: PathBuf,
     #[command(flatten)]
+    bitmaps: Bitmaps,
+    #[command(flatten)]
     sought: Sought,
     #[command(flatten)]
     tuning: Tuning,
@@ -36,8 +38,9 @@ pub fn plot(args: &PlotArgs, desk: &Desk) -> Result<Answer> {
     check_distinct(args.input.path(), &[], &[&args.output])?;
     let file = PictureFile::reserve(&args.output)?;
     let mut ctx = desk.context();
-    let document = args.input.read(&mut ctx)?;
-    let found = detect_document(&document, &params, &mut ctx).map_err(|e| args.input.blame(e))?;
+    let input = args.input.subject(&args.bitmaps, &mut ctx)?;
+    let found = input.detect(&params, &mut ctx);
+    let (_, found) = found.map_err(|e| args.input.blame(e))?;
     let title = args.input.title();
     let complete = ctx.stage("picture", |_| {
         file.write(&pictures::density(&found, params.cluster.bandwidth, &title))

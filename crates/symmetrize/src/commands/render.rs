@@ -3,13 +3,13 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use symmetrizer::Result;
 use symmetrizer::job::pictures::{Shown, VIEW_SIZE, measured_views};
 use symmetrizer::picture::Angle;
-use symmetrizer::{Result, measure_in};
 
 use crate::Answer;
 use crate::files::{PictureFile, check_distinct, commit};
-use crate::input::{self, Input};
+use crate::input::{self, Bitmaps, Input};
 use crate::options::Desk;
 
 /// Draw views of a shape side by side
@@ -37,6 +37,8 @@ pub struct RenderArgs {
     /// A line above the views [default: the input's name; empty for none]
     #[arg(long)]
     title: Option<String>,
+    #[command(flatten)]
+    bitmaps: Bitmaps,
 }
 
 /// The verb.
@@ -44,8 +46,9 @@ pub fn render(args: &RenderArgs, desk: &Desk) -> Result<Answer> {
     check_distinct(args.input.path(), &[], &[&args.output])?;
     let file = PictureFile::reserve(&args.output)?;
     let mut ctx = desk.context();
-    let mesh = args.input.read(&mut ctx)?.mesh;
-    let measured = measure_in(&mesh, None, &mut ctx).map_err(|e| args.input.blame(e))?;
+    let input = args.input.subject(&args.bitmaps, &mut ctx)?;
+    let measured = input.measure(None, &mut ctx);
+    let (_, measured) = measured.map_err(|e| args.input.blame(e))?;
     let title = args.title.clone().unwrap_or_else(|| args.input.title());
     let shown = Shown {
         title: &title,

@@ -7,12 +7,13 @@ use symmetrizer::deform::Stiffness;
 use symmetrizer::job::pictures;
 use symmetrizer::shape::{Document, io};
 use symmetrizer::{
-    Context, Error, Outcome, Params, Result, Symmetrized, Warning, symmetrize_with, unbend,
+    Context, Drawn, Error, Outcome, Params, Result, Symmetrized, Warning, symmetrize_drawing,
+    symmetrize_with, unbend, unbend_drawing,
 };
 
 use crate::Answer;
-use crate::files::{MeshFile, PictureFile, ReportFile, check_distinct, commit};
-use crate::input::{self, Input};
+use crate::files::{PictureFile, ReportFile, ShapeFile, check_distinct, commit};
+use crate::input::{self, Bitmaps, Input, Subject};
 use crate::options::{Bends, Desk, Tuning};
 use crate::summary;
 
@@ -25,7 +26,8 @@ use crate::summary;
 pub struct RunArgs {
     #[arg(help = input::HELP)]
     input: Input,
-    /// Write the symmetric shape here; the extension says how (obj, ply, off, stl, gltf, glb, 3mf)
+    /// Write the symmetric shape here; the extension says how (obj, ply, off, stl, gltf, glb, 3mf; a drawing
+    /// as svg, json or png)
     #[arg(long, short, value_name = "FILE")]
     output: PathBuf,
     /// Write everything in figures here, as JSON
@@ -52,13 +54,15 @@ pub struct RunArgs {
     #[arg(long, value_name = "FILE")]
     write_input: Option<PathBuf>,
     #[command(flatten)]
+    bitmaps: Bitmaps,
+    #[command(flatten)]
     tuning: Tuning,
 }
 
 /// The files of a run.
 struct Files {
-    output: MeshFile,
-    input: Option<MeshFile>,
+    output: ShapeFile,
+    input: Option<ShapeFile>,
     report: Option<ReportFile>,
     picture: Option<PictureFile>,
 }
@@ -66,8 +70,16 @@ struct Files {
 /// The verb.
 pub fn run(args: &RunArgs, desk: &Desk) -> Result<Answer> {
     let stiffness = args.stiffness()?;
-    carry_out(args, desk, |document, params, ctx| {
-        symmetrize_with(&document.mesh, &stiffness, params, ctx)
+    carry_out(args, desk, |input, params, ctx| match input {
+        Subject::Shape(document) => {
+            let job = symmetrize_with(&document.mesh, &stiffness, params, ctx)?;
+            Ok(Done::shape(document, job))
+        }
+        Subject::Drawing(_) if args.stiffness.is_some() => {
+            let what = "is for shapes of space; a drawing is as stiff everywhere";
+            Err(Error::params("--stiffness", what))
+        }
+        Subject::Drawing(drawing) => Ok(Done::drawing(symmetrize_drawing(drawing, params, ctx)?)),
     })
 }
 
@@ -77,29 +89,60 @@ pub fn straighten(args: &RunArgs, desk: &Desk) -> Result<Answer> {
         let what = "a bend is undone by rotations; stiffness has no say in it";
         return Err(Error::params("--stiffness", what));
     }
-    carry_out(args, desk, |document, params, ctx| {
-        unbend(&document.mesh, params, ctx)
+    carry_out(args, desk, |input, params, ctx| match input {
+        Subject::Shape(document) => {
+            let job = unbend(&document.mesh, params, ctx)?;
+            Ok(Done::shape(document, job))
+        }
+        Subject::Drawing(drawing) => Ok(Done::drawing(unbend_drawing(drawing, params, ctx)?)),
     })
+}
+
+/// What a run came to.
+struct Done {
+    result: Subject,
+    job: Symmetrized,
+}
+
+impl Done {
+    fn shape(input: &Document, job: Symmetrized) -> Self {
+        Self {
+            result: Subject::Shape(job.document(input)),
+            job,
+        }
+    }
+
+    fn drawing(drawn: Drawn) -> Self {
+        Self {
+            result: Subject::Drawing(drawn.drawing),
+            job: drawn.job,
+        }
+    }
 }
 
 /// Reads, does the `work`, writes.
 fn carry_out(
     args: &RunArgs,
     desk: &Desk,
-    work: impl FnOnce(&Document, &Params, &mut Context<'_>) -> Result<Symmetrized>,
+    work: impl FnOnce(&Subject, &Params, &mut Context<'_>) -> Result<Done>,
 ) -> Result<Answer> {
     let params = args.params()?;
     let files = Files::reserve(args)?;
     let mut ctx = desk.context();
-    let document = args.input.read(&mut ctx)?;
-    let mut job = work(&document, &params, &mut ctx).map_err(|e| args.input.blame(e))?;
+    let input = args.input.subject(&args.bitmaps, &mut ctx)?;
+    for file in std::iter::once(&files.output).chain(&files.input) {
+        file.check(&input)?;
+    }
+    let done = work(&input, &params, &mut ctx).map_err(|e| args.input.blame(e))?;
+    let Done { result, mut job } = done;
     job.report.input.shape.file = Some(args.input.name());
     if let (Some(report), Some(text)) = (&mut job.report.stiffness, &args.stiffness) {
         report.file = text.parse::<f64>().is_err().then(|| text.clone());
     }
     let found = job.outcome != Outcome::NoSymmetry;
     let shape = found || args.write_unchanged;
-    files.write(shape, &document, &mut job, args, (&mut ctx, desk))?;
+    let subjects = (&input, shape.then_some(&result));
+    files.write(subjects, &mut job, args, (&mut ctx, desk))?;
     desk.say(&summary::run(&job.report, args.picture.as_deref()));
     desk.say(&args.written(shape, is_drawn(shape, &job)));
     Ok(if found { Answer::Yes } else { Answer::No })
@@ -162,9 +205,9 @@ impl Files {
         let others = [&args.write_input, &args.report, &args.picture];
         let others: Vec<&Path> = others.into_iter().flatten().map(PathBuf::as_path).collect();
         check_distinct(args.input.path(), &[&args.output], &others)?;
-        let input = args.write_input.as_deref().map(MeshFile::reserve);
+        let input = args.write_input.as_deref().map(ShapeFile::reserve);
         Ok(Self {
-            output: MeshFile::reserve(&args.output)?,
+            output: ShapeFile::reserve(&args.output)?,
             input: input.transpose()?,
             report: args
                 .report
@@ -179,29 +222,27 @@ impl Files {
         })
     }
 
-    /// Writes what the job came to; without `shape` no result.
+    /// Writes what the job came to: the input, and the result where there is one.
     fn write(
         self,
-        shape: bool,
-        input: &Document,
+        (input, result): (&Subject, Option<&Subject>),
         job: &mut Symmetrized,
         args: &RunArgs,
         (ctx, desk): (&mut Context<'_>, &Desk),
     ) -> Result<()> {
         let mut complete = Vec::new();
         ctx.stage("write", |_| {
-            if shape {
-                let result = job.document(input);
-                let warnings = self.output.warnings(&result).into_iter();
+            if let Some(result) = result {
+                let warnings = self.output.warnings(result).into_iter();
                 job.report.warnings.extend(warnings.map(Warning));
-                complete.push(self.output.write(&result)?);
+                complete.push(self.output.write(result)?);
             }
             if let Some(file) = self.input {
                 complete.push(file.write(input)?);
             }
             Ok(())
         })?;
-        if let Some(file) = self.picture.filter(|_| is_drawn(shape, job)) {
+        if let Some(file) = self.picture.filter(|_| is_drawn(result.is_some(), job)) {
             complete.push(ctx.stage("picture", |_| {
                 file.write(&pictures::before_after(job, &args.input.title())?)
             })?);

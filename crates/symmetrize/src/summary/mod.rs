@@ -237,6 +237,7 @@ mod tests {
             likeness: 0.5,
             relief: 0.4,
             unfit: 0.1,
+            rival: None,
             degrees: 34.0,
             removed: 0.0,
             kept: None,

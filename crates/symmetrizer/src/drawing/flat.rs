@@ -25,7 +25,14 @@ pub(super) struct Flat {
 /// # Errors
 /// [`Error::Input`] as for meshes, and where the mesh is not flat or has no boundary.
 pub(super) fn read(bytes: Vec<u8>) -> Result<(Flat, Outline)> {
-    let document = io::decode(bytes, io::Format::Obj)?;
+    of_document(io::decode(bytes, io::Format::Obj)?)
+}
+
+/// The outline of a document's mesh.
+///
+/// # Errors
+/// As [`read`].
+pub(super) fn of_document(document: Document) -> Result<(Flat, Outline)> {
     document.mesh.check()?;
     let level = plane(&document.mesh.positions)?;
     let flat = Flat { document, level };

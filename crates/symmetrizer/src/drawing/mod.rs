@@ -24,6 +24,7 @@ use std::path::Path;
 
 use crate::error::{Error, Result, Warning};
 use crate::geom::Point;
+use crate::shape::document::Document;
 use crate::shape::io as shapes;
 
 pub use format::Format;
@@ -112,6 +113,16 @@ pub fn decode(bytes: Vec<u8>, format: Format, reading: &Reading) -> Result<Drawi
 }
 
 impl Drawing {
+    /// The drawing that a flat mesh is; `None` where it is not flat, or has no boundary around an area.
+    pub fn of_flat(document: &Document) -> Option<Self> {
+        let (flat, outline) = flat::of_document(document.clone()).ok()?;
+        Some(Self {
+            outline,
+            kept: Kept::Flat(Box::new(flat)),
+            warnings: Vec::new(),
+        })
+    }
+
     /// The region, in drawing coordinates.
     pub fn outline(&self) -> &Outline {
         &self.outline

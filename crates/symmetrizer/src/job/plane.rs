@@ -1,11 +1,13 @@
 //! Shapes of the plane: a drawing's outline goes through the stages as the wall over it, and the drawing follows.
 
+use crate::apply::measure::asymmetry_of_outline;
 use crate::context::Context;
 use crate::deform::{Igarashi, Stiffness, carry};
+use crate::detect::DetectParams;
 use crate::drawing::{Drawing, Outline};
 use crate::error::{Error, Result};
 use crate::geom::{Matrix3, Point, Vector};
-use crate::job::{Detected, Symmetrized, made};
+use crate::job::{Detected, Measured, Symmetrized, made};
 use crate::params::Params;
 use crate::shape::wall::Wall;
 use crate::shape::working::{Normalization, Working};
@@ -39,7 +41,8 @@ pub fn detect_drawing(
     ctx: &mut Context<'_>,
 ) -> Result<(Mesh, Detected)> {
     params.check()?;
-    find(drawing.outline(), params, ctx)
+    warn_of(drawing, ctx);
+    find(drawing.outline(), &params.detect(), ctx)
 }
 
 /// Makes a drawing symmetric, as [`crate::symmetrize`] does a mesh.
@@ -67,10 +70,9 @@ pub fn unbend_drawing(drawing: &Drawing, params: &Params, ctx: &mut Context<'_>)
 
 fn work(drawing: &Drawing, params: &Params, only: bool, ctx: &mut Context<'_>) -> Result<Drawn> {
     params.check()?;
-    for warning in drawing.warnings() {
-        ctx.warn(warning.0.clone());
-    }
-    let (mesh, before) = find(drawing.outline(), params, ctx)?;
+    warn_of(drawing, ctx);
+    let detect = params.detect().mirrors_only();
+    let (mesh, before) = find(drawing.outline(), &detect, ctx)?;
     let job = made(&mesh, before, &Stiffness::default(), params, only, ctx)?;
     let drawing = match (&job.before.wall, &job.after) {
         (Some(wall), Some(after)) => ctx.stage("redraw", |_| {
@@ -82,8 +84,15 @@ fn work(drawing: &Drawing, params: &Params, only: bool, ctx: &mut Context<'_>) -
     Ok(Drawn { drawing, job })
 }
 
-/// The mirrors of an outline, and the mesh of its corners.
-fn find(outline: &Outline, params: &Params, ctx: &mut Context<'_>) -> Result<(Mesh, Detected)> {
+/// Says how the file was read.
+fn warn_of(drawing: &Drawing, ctx: &mut Context<'_>) {
+    for warning in drawing.warnings() {
+        ctx.warn(warning.0.clone());
+    }
+}
+
+/// The mesh of an outline's corners and the wall over it.
+fn walled(outline: &Outline) -> Result<(Mesh, Wall)> {
     if outline.is_empty() {
         return Err(Error::input(
             "the drawing has no area",
@@ -97,13 +106,42 @@ fn find(outline: &Outline, params: &Params, ctx: &mut Context<'_>) -> Result<(Me
         positions: corners.collect(),
         ..Mesh::default()
     };
-    let detect = params.detect().mirrors_only();
+    Ok((mesh, wall))
+}
+
+/// The symmetries of an outline, and the mesh of its corners.
+fn find(
+    outline: &Outline,
+    params: &DetectParams,
+    ctx: &mut Context<'_>,
+) -> Result<(Mesh, Detected)> {
+    let (mesh, wall) = walled(outline)?;
     let diagonal = outline.diagonal();
     let working = Working::of_wall(&wall);
     let found = ctx.stage("detect", |ctx| {
-        Detected::find((working, Some(wall)), diagonal, &detect, ctx)
+        Detected::find((working, Some(wall)), diagonal, params, ctx)
     })?;
     Ok((mesh, found))
+}
+
+/// Measures how far a drawing's outline is from symmetric.
+///
+/// # Errors
+/// [`Error::Input`] for a drawing without an area, [`Error::Numerical`], [`Error::Cancelled`].
+pub fn measure_drawing(drawing: &Drawing, ctx: &mut Context<'_>) -> Result<(Mesh, Measured)> {
+    warn_of(drawing, ctx);
+    let (mesh, wall) = walled(drawing.outline())?;
+    let diagonal = drawing.outline().diagonal() / wall.normalization.scale;
+    let asymmetry = ctx.stage("measure", |ctx| {
+        asymmetry_of_outline(&wall, diagonal, &[], ctx)
+    })?;
+    let measured = Measured {
+        working: Working::of_wall(&wall),
+        diagonal,
+        asymmetry,
+        distortion: None,
+    };
+    Ok((mesh, measured))
 }
 
 /// Where all of the plane goes with an outline: with the triangles inside; around it, with the nearest place on it.

@@ -21,6 +21,9 @@ pub struct BendReport {
     /// Share of the surface whose mirror image does not come to lie on the rest, however the shape is bent: where
     /// it is large, the symmetry is one of a part.
     pub unfit: f64,
+    /// Of an outline, how much it looks like its mirror image from other places, too: 0 not at all, 1 as much.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rival: Option<f64>,
     /// The largest angle by which local mirrors turn over the shape, degrees.
     pub degrees: f64,
     /// How much of it was removed, degrees.
@@ -52,6 +55,7 @@ impl BendReport {
             likeness: (1.0 - bend.trust.gap).max(0.0),
             relief: bend.trust.relief,
             unfit: bend.trust.unfit,
+            rival: bend.trust.rival,
             degrees: bend.degrees,
             removed: 0.0,
             kept: None,
