@@ -131,8 +131,9 @@ fn of_ring(ring: &[Point]) -> Result<Drawing> {
         .map(|x| format!("{},{}", 500.0 * x.x, -500.0 * x.y))
         .collect();
     let corners = corners.join(" ");
-    let text =
-        format!("<svg xmlns='http://www.w3.org/2000/svg'><polygon points='{corners}'/></svg>");
+    let text = format!(
+        "<svg xmlns='http://www.w3.org/2000/svg' viewBox='-500 -500 1000 1000'><polygon points='{corners}'/></svg>"
+    );
     decode(
         text.into_bytes(),
         symmetrizer::drawing::Format::Svg,

@@ -145,7 +145,7 @@ impl Drawing {
     /// [`Error::Numerical`] where `map` leads to what is no number.
     pub fn deformed(&self, map: &dyn Fn(Point) -> Point) -> Result<Self> {
         let kept = match &self.kept {
-            Kept::Svg(svg) => Kept::Svg(svg.deformed(map)?),
+            Kept::Svg(svg) => Kept::Svg(svg.deformed(&self.outline, map)?),
             Kept::Flat(flat) => Kept::Flat(Box::new(flat.deformed(map)?)),
             other => other.clone(),
         };

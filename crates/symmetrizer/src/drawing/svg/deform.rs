@@ -9,8 +9,9 @@ use super::edit::{Edit, Edits};
 use super::scene::{Paint, Piece, Role, Scene, Spot, Whole, by_id, node, referenced};
 use super::units::{matrix, transform};
 use super::{motion, silhouette, viewport};
+use crate::drawing::outline::{Outline, Ring};
 use crate::drawing::path::bend::Bending;
-use crate::drawing::path::write;
+use crate::drawing::path::{Path, write};
 use crate::error::{Error, Result};
 
 /// Of the drawing's diagonal: how near curves lie to the deformed ones.
@@ -29,18 +30,27 @@ const STEP: f64 = 1e-4;
 /// Gradients that refer to each other.
 const CHAIN: usize = 16;
 
+/// Of the diagonal: how far from the region strokes and loose paths belong to it.
+const BESIDE: f64 = 0.03;
+
 type Map<'a> = &'a dyn Fn(Point) -> Point;
 
-/// The changes of a document whose drawing, of this size, is deformed.
+/// The changes of a document whose drawing, the region inside `outline`, is deformed. What lies apart from it stays:
+/// as a whole the region stays where it is, too.
 ///
 /// # Errors
 /// [`Error::Numerical`] where the map leads to points that are no numbers.
 pub(super) fn edits(
     tree: &Document<'_>,
     scene: &Scene,
-    diagonal: f64,
+    outline: &Outline,
     map: Map<'_>,
 ) -> Result<Edits> {
+    let diagonal = diagonal(scene);
+    let beside = Beside {
+        outline,
+        reach: BESIDE * diagonal,
+    };
     let bending = Bending {
         map,
         tolerance: TOLERANCE * diagonal,
@@ -51,6 +61,9 @@ pub(super) fn edits(
     let mut around: Option<Rect> = None;
     for (number, piece) in scene.pieces.iter().enumerate().filter(|(_, p)| moving(p)) {
         let placed = piece.path.transformed(piece.place);
+        if beside.is_apart(&placed) {
+            continue;
+        }
         let Some(bent) = bending.path(&placed, STILL * diagonal) else {
             continue;
         };
@@ -97,6 +110,36 @@ pub(super) fn edits(
         ));
     }
     Ok(edits)
+}
+
+/// What belongs to the region.
+struct Beside<'a> {
+    outline: &'a Outline,
+    /// Strokes at this distance still do.
+    reach: f64,
+}
+
+impl Beside<'_> {
+    /// Whether most of a path's points lie outside and further away, a frame around the drawing, say.
+    fn is_apart(&self, path: &Path) -> bool {
+        let (mut away, mut count) = (0, 0);
+        for p in path.control_points() {
+            count += 1;
+            away += usize::from(!self.holds(p));
+        }
+        2 * away > count
+    }
+
+    fn holds(&self, p: Point) -> bool {
+        let x = crate::geom::Point::new(p.x, p.y, 0.0);
+        let near = |(a, b): (&crate::geom::Point, &crate::geom::Point)| {
+            let (way, from) = (b - a, x - a);
+            let t = from.dot(&way) / way.norm_squared().max(f64::MIN_POSITIVE);
+            (from - way * t.clamp(0.0, 1.0)).norm() <= self.reach
+        };
+        let mut edges = self.outline.rings.iter().flat_map(Ring::edges);
+        self.outline.contains(&x) || edges.any(near)
+    }
 }
 
 /// `None` where an element is squeezed into a line.
@@ -205,7 +248,7 @@ fn seen(scene: &Scene) -> Rect {
 }
 
 /// The diagonal of all paths, drawing units.
-pub(super) fn diagonal(scene: &Scene) -> f64 {
+fn diagonal(scene: &Scene) -> f64 {
     let seen = scene
         .pieces
         .iter()

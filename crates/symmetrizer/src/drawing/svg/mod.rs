@@ -69,12 +69,12 @@ impl Svg {
         &self.text
     }
 
-    /// The document with its drawing deformed.
+    /// The document with its drawing, the region inside `outline`, deformed.
     ///
     /// # Errors
     /// [`crate::Error::Numerical`] where the map leads to points that are no numbers;
     /// [`crate::Error::Unsupported`] where unfolded uses would make too large a file.
-    pub fn deformed(&self, map: &dyn Fn(Point) -> Point) -> Result<Self> {
+    pub fn deformed(&self, outline: &Outline, map: &dyn Fn(Point) -> Point) -> Result<Self> {
         let tree = source::tree(&self.text)?;
         let mut scene = scene::scene(&tree)?;
         silhouette::mark_background(&mut scene);
@@ -82,7 +82,7 @@ impl Svg {
             let q = map(Point::new(p.x, p.y, 0.0));
             kurbo::Point::new(q.x, q.y)
         };
-        let edits = deform::edits(&tree, &scene, deform::diagonal(&scene), &flat)?;
+        let edits = deform::edits(&tree, &scene, outline, &flat)?;
         Ok(Self {
             text: edit::edited(&self.text, &tree, &edits, &scene)?,
         })

@@ -52,8 +52,8 @@ pub(super) fn root(node: Node<'_, '_>) -> Window {
 /// Of the shape's larger side: the room beside what leaves the window.
 const ROOM: f64 = 0.01;
 
-/// A window that holds what it has held before, at the same scale: where the drawing lay `before`
-/// inside and lies `after` beyond it, it is widened.
+/// A window that holds what it has held before, at the same scale: where the drawing lies `after` beyond it,
+/// and further than `before`, it is widened.
 pub(super) fn widened(
     tree: &Document<'_>,
     before: Rect,
@@ -65,22 +65,22 @@ pub(super) fn widened(
     let shown = window.shown?;
     let room = ROOM * after.width().max(after.height());
     let wide = Rect::new(
-        if before.x0 >= shown.x0 && after.x0 < shown.x0 {
+        if after.x0 < shown.x0.min(before.x0) {
             after.x0 - room
         } else {
             shown.x0
         },
-        if before.y0 >= shown.y0 && after.y0 < shown.y0 {
+        if after.y0 < shown.y0.min(before.y0) {
             after.y0 - room
         } else {
             shown.y0
         },
-        if before.x1 <= shown.x1 && after.x1 > shown.x1 {
+        if after.x1 > shown.x1.max(before.x1) {
             after.x1 + room
         } else {
             shown.x1
         },
-        if before.y1 <= shown.y1 && after.y1 > shown.y1 {
+        if after.y1 > shown.y1.max(before.y1) {
             after.y1 + room
         } else {
             shown.y1
