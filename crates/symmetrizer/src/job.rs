@@ -227,6 +227,7 @@ fn made(
     };
     if done.outcome != Outcome::NoSymmetry {
         job.conclude(done, &detect, ctx)?;
+        plane::give_up_on_worse(&mut job, ctx);
     }
     job.report.warnings = ctx.warnings().to_vec();
     Ok(job)

@@ -5,12 +5,15 @@ use crate::context::Context;
 use crate::error::{Error, Result};
 use crate::geom::Point;
 use crate::shape::Mesh;
+use crate::shape::wall::Wall;
 use crate::shape::working::Working;
 
 /// A shape and its figures.
 pub struct Measured {
     /// The shape to work on.
     pub working: Working,
+    /// The wall that it is, in the plane.
+    pub wall: Option<Wall>,
     /// The bounding-box diagonal D, fraction of L.
     pub diagonal: f64,
     /// How far from symmetric; planes in working coordinates.
@@ -34,6 +37,7 @@ pub fn measure_in(mesh: &Mesh, original: Option<&Mesh>, ctx: &mut Context<'_>) -
         .map(|original| ctx.stage("compare", |_| compare(original, mesh)))
         .transpose()?;
     Ok(Measured {
+        wall: None,
         working,
         diagonal,
         asymmetry,

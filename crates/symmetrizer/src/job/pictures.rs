@@ -4,6 +4,7 @@
 //! the same colour, that of the symmetry's id.
 
 pub mod bend;
+mod flat;
 mod parts;
 mod plots;
 
@@ -39,6 +40,9 @@ const SCALE_LABEL: &str = "asymmetry, % of D";
 /// # Errors
 /// [`crate::Error::Numerical`].
 pub fn before_after(job: &Symmetrized, title: &str) -> Result<Canvas> {
+    if let Some(page) = flat::before_after(job, title, &figures(job))? {
+        return Ok(page);
+    }
     let states = states(job, title);
     Ok(match bend::rows(job)? {
         Some(rows) => states.above(rows),
@@ -110,6 +114,9 @@ pub struct Shown<'a> {
 
 /// Views of a shape that stands as its measured mirror plane says.
 pub fn measured_views(measured: &Measured, shown: &Shown<'_>) -> Canvas {
+    if let Some(page) = flat::measured(measured, shown.title, shown.plane) {
+        return page;
+    }
     let surface = &measured.working.surface;
     let plane = measured.asymmetry.plane;
     let values = shown

@@ -8,6 +8,7 @@ use crate::drawing::{Drawing, Outline};
 use crate::error::{Error, Result};
 use crate::geom::{Matrix3, Point, Vector};
 use crate::job::{Detected, Measured, Symmetrized, made};
+use crate::optimize::Outcome;
 use crate::params::Params;
 use crate::shape::wall::Wall;
 use crate::shape::working::{Normalization, Working};
@@ -29,6 +30,45 @@ const WHOLE: f64 = 0.7;
 pub(super) fn mirrored(found: &Detected) -> bool {
     let holds = found.symmetries().iter().any(|s| s.area_fraction >= WHOLE);
     found.wall.is_none() || holds
+}
+
+/// A drawing is to lose this share of its asymmetry at the least, and no more than this share of its edges may cross
+/// others, or it is left.
+const BETTER: f64 = 0.5;
+const CROSSED: f64 = 0.005;
+/// Asymmetry, % of D, that may come and go.
+const FLOOR: f64 = 0.01;
+
+/// Takes a drawing's result back where it is hardly more symmetric than the input, or tangled.
+pub(super) fn give_up_on_worse(job: &mut Symmetrized, ctx: &mut Context<'_>) {
+    let (Some(wall), Some(result)) = (&job.before.wall, &job.report.result) else {
+        return;
+    };
+    let before = job
+        .report
+        .input
+        .shape
+        .asymmetry
+        .as_ref()
+        .map_or(0.0, |a| a.mean);
+    let worse = result.asymmetry.mean > BETTER * before + FLOOR;
+    let crossed = result.distortion.new_crossings as f64 / wall.edges() as f64 > CROSSED;
+    // What is only straightened stays asymmetric for the rest.
+    let only = job.report.head.params.optimize.final_steps == 0;
+    if worse && !only || crossed {
+        ctx.warn(format!(
+            "the drawing is left as it is: made symmetric, {} ({:.2} % of D from symmetric, was {before:.2})",
+            if crossed { "it would cross itself" } else { "it would hardly be more so" },
+            result.asymmetry.mean
+        ));
+        job.report.result = None;
+        job.report.steps.clear();
+        job.report.outcome = Outcome::NoSymmetry;
+        job.outcome = Outcome::NoSymmetry;
+        job.after = None;
+        let wall = wall.clone();
+        job.shape = corners(&wall);
+    }
 }
 
 /// Finds the symmetries of a drawing's outline.
@@ -101,12 +141,16 @@ fn walled(outline: &Outline) -> Result<(Mesh, Wall)> {
     }
     let rings: Vec<Vec<Point>> = outline.rings.iter().map(|r| r.points.clone()).collect();
     let wall = Wall::new(&rings)?;
-    let corners = (0..wall.edges()).map(|e| wall.normalization.to_document(&wall.start(e)));
-    let mesh = Mesh {
-        positions: corners.collect(),
+    Ok((corners(&wall), wall))
+}
+
+/// A vertex for each edge of an outline, where it starts.
+fn corners(wall: &Wall) -> Mesh {
+    let places = (0..wall.edges()).map(|e| wall.normalization.to_document(&wall.start(e)));
+    Mesh {
+        positions: places.collect(),
         ..Mesh::default()
-    };
-    Ok((mesh, wall))
+    }
 }
 
 /// The symmetries of an outline, and the mesh of its corners.
@@ -137,6 +181,7 @@ pub fn measure_drawing(drawing: &Drawing, ctx: &mut Context<'_>) -> Result<(Mesh
     })?;
     let measured = Measured {
         working: Working::of_wall(&wall),
+        wall: Some(wall),
         diagonal,
         asymmetry,
         distortion: None,

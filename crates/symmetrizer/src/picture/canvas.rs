@@ -136,6 +136,17 @@ pub(super) enum Mark {
         width: f64,
         color: [u8; 3],
     },
+    /// What is inside an odd number of closed rings.
+    Area {
+        rings: Vec<Vec<[f64; 2]>>,
+        color: [u8; 3],
+    },
+    /// Joined lines; closed ones end where they began.
+    Path {
+        points: Vec<[f64; 2]>,
+        width: f64,
+        color: [u8; 3],
+    },
     /// The outline of a rectangle with corner (x, y) and size (w, h).
     Frame {
         rect: [f64; 4],
@@ -158,6 +169,8 @@ impl Mark {
                 to[1] += by;
             }
             Self::Circle { center, .. } => center[1] += by,
+            Self::Area { rings, .. } => rings.iter_mut().flatten().for_each(|x| x[1] += by),
+            Self::Path { points, .. } => points.iter_mut().for_each(|x| x[1] += by),
             Self::Frame { rect, .. } | Self::Bar { rect, .. } => rect[1] += by,
         }
         self
@@ -242,6 +255,20 @@ impl Canvas {
         self.marks.push(Mark::Circle {
             center,
             radius,
+            width,
+            color,
+        });
+    }
+
+    /// Fills what is inside an odd number of closed rings.
+    pub fn area(&mut self, rings: Vec<Vec<[f64; 2]>>, color: [u8; 3]) {
+        self.marks.push(Mark::Area { rings, color });
+    }
+
+    /// Draws joined lines.
+    pub fn path(&mut self, points: Vec<[f64; 2]>, width: f64, color: [u8; 3]) {
+        self.marks.push(Mark::Path {
+            points,
             width,
             color,
         });

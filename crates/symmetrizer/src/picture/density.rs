@@ -60,6 +60,24 @@ impl Extent {
     }
 }
 
+/// What an axis shows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Axis<'a> {
+    /// What its numbers are.
+    pub caption: &'a str,
+    /// How many of their units one unit of the plot's coordinates is.
+    pub unit: f64,
+}
+
+impl Default for Axis<'_> {
+    fn default() -> Self {
+        Self {
+            caption: "displacement, fraction of L",
+            unit: 1.0,
+        }
+    }
+}
+
 /// A cluster in the plot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlotMode {
@@ -86,6 +104,8 @@ pub struct DensityPlot<'a> {
     pub bandwidth: f64,
     /// Fixed axes, to compare plots; around the votes and clusters if absent.
     pub axes: Option<Extent>,
+    /// What the axes show.
+    pub shown: [Axis<'a>; 2],
     /// A line above the plot; none if empty.
     pub title: &'a str,
 }
@@ -119,7 +139,7 @@ impl DensityPlot<'_> {
         let (x, y) = (x + left, y + above);
         canvas.image(x, y, self.heat(&extent, size));
         let frame = [x, y, size].map(f64::from);
-        axes(canvas, &extent, frame);
+        axes(canvas, &extent, &self.shown, frame);
         self.draw_modes(canvas, &extent, frame);
         let title = Text::new(self.title, frame[0], frame[1] - 10.0, 15.0);
         canvas.text(title.within(frame[2]));
@@ -267,23 +287,27 @@ fn beside(ring: &Ring<'_>, [x, y, size]: [f64; 3], taken: &mut Vec<[f64; 4]>) ->
     }
 }
 
-fn axes(canvas: &mut Canvas, extent: &Extent, [x, y, size]: [f64; 3]) {
+fn axes(canvas: &mut Canvas, extent: &Extent, shown: &[Axis<'_>; 2], [x, y, size]: [f64; 3]) {
+    let ticks = |range: [f64; 2], axis: &Axis<'_>| {
+        let unit = axis.unit;
+        let all = labelled_ticks(unit * range[0], unit * range[1], 4).into_iter();
+        all.map(move |(value, label)| (value / unit, label))
+    };
     canvas.frame([x, y, size, size], PALE);
     let small = |label: String, x: f64, y: f64| Text::new(label, x, y, 12.0).colored(GREY);
-    for (value, label) in labelled_ticks(extent.x[0], extent.x[1], 4) {
+    for (value, label) in ticks(extent.x, &shown[0]) {
         let at = x + size * extent.place(&[value, 0.0])[0];
         canvas.line([at, y + size], [at, y + size + 4.0], 1.0, GREY);
         canvas.text(small(label, at, y + size + 17.0).anchored(Anchor::Middle));
     }
-    for (value, label) in labelled_ticks(extent.y[0], extent.y[1], 4) {
+    for (value, label) in ticks(extent.y, &shown[1]) {
         let at = y + size * extent.place(&[0.0, value])[1];
         canvas.line([x - 4.0, at], [x, at], 1.0, GREY);
         canvas.text(small(label, x - 7.0, at + 4.0).anchored(Anchor::End));
     }
-    let caption = "displacement, fraction of L";
-    let across = small(caption.into(), x + size / 2.0, y + size + 36.0);
+    let across = small(shown[0].caption.into(), x + size / 2.0, y + size + 36.0);
     canvas.text(across.anchored(Anchor::Middle).within(size));
-    let up = small(caption.into(), x - 42.0, y + size / 2.0);
+    let up = small(shown[1].caption.into(), x - 42.0, y + size / 2.0);
     canvas.text(up.anchored(Anchor::Middle).upwards().within(size));
 }
 

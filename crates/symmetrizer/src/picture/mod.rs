@@ -29,7 +29,7 @@ pub use camera::{Camera, View};
 pub use canvas::Canvas;
 pub use checks::Checks;
 pub use color::{ColorMap, ColorScale, categorical};
-pub use density::{DensityPlot, Extent, PlotMode};
+pub use density::{Axis, DensityPlot, Extent, PlotMode};
 pub use gallery::{Exhibit, Gallery};
 pub use planes::Tile;
 pub use render::{Background, Scene, render};

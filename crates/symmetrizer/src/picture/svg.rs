@@ -94,6 +94,28 @@ fn marks(out: &mut String, canvas: &Canvas) {
                     Length(*width),
                 ),
             ),
+            Mark::Area { rings, color } => {
+                let data: Vec<String> = rings.iter().map(|r| joined(r) + "Z").collect();
+                let (data, color) = (data.concat(), Hex(*color));
+                push(
+                    out,
+                    format_args!("<path d=\"{data}\" fill=\"{color}\" fill-rule=\"evenodd\"/>\n"),
+                );
+            }
+            Mark::Path {
+                points,
+                width,
+                color,
+            } => push(
+                out,
+                format_args!(
+                    "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" \
+                     stroke-linejoin=\"round\"/>\n",
+                    joined(points),
+                    Hex(*color),
+                    Length(*width),
+                ),
+            ),
             Mark::Frame { rect, color } => rectangle(
                 out,
                 rect,
@@ -102,6 +124,19 @@ fn marks(out: &mut String, canvas: &Canvas) {
             Mark::Bar { rect, scale } => bar(out, id, rect, scale),
         }
     }
+}
+
+/// Points as path data.
+fn joined(points: &[[f64; 2]]) -> String {
+    let mut data = String::new();
+    for (k, [x, y]) in points.iter().enumerate() {
+        let letter = if k == 0 { 'M' } else { 'L' };
+        push(
+            &mut data,
+            format_args!("{letter}{} {}", Length(*x), Length(*y)),
+        );
+    }
+    data
 }
 
 fn rectangle(out: &mut String, [x, y, w, h]: &[f64; 4], style: std::fmt::Arguments<'_>) {

@@ -114,6 +114,7 @@ fn a_density_plot_to_look_at() {
     let (points, weights) = votes(0.1);
     let modes = modes();
     let plot = DensityPlot {
+        shown: Default::default(),
         points: &points,
         weights: &weights,
         modes: &modes,
@@ -148,6 +149,7 @@ fn report_picture(name: &str, model: &Model, plane: Plane, scalar: &[f64]) {
     let modes = modes();
     let axes = Some(Extent::around(&before.0, 0.03));
     let plot = |points, weights, modes| DensityPlot {
+        shown: Default::default(),
         points,
         weights,
         modes,

@@ -138,6 +138,7 @@ fn odd_votes_are_plotted_without_panic() {
     for points in [&[][..], &odd[..], &odd[..2], &[[0.0; 2]; 3][..]] {
         for bandwidth in [0.1, 0.0, -1.0, nan, 1e300] {
             let plot = DensityPlot {
+                shown: Default::default(),
                 points,
                 weights: &[nan, -1.0],
                 modes: &modes,

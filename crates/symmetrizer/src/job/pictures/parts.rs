@@ -3,7 +3,7 @@
 use crate::detect::Group;
 use crate::geom::{Point, Vector};
 use crate::job::Detected;
-use crate::job::pictures::{VIEW_SIZE, color, hue, views};
+use crate::job::pictures::{VIEW_SIZE, color, flat, hue, views};
 use crate::patch::Symmetry;
 use crate::picture::{Canvas, Exhibit, Gallery, Rod, categorical};
 use crate::report::faces::FaceSamples;
@@ -25,6 +25,9 @@ const TINT: f64 = 0.6;
 /// What was `found`, in panels: groups first, then continuous symmetries, then single ones, those of
 /// most of the surface first. Where nothing was, views of the shape.
 pub fn symmetries(found: &Detected, title: &str) -> Canvas {
+    if let Some(page) = flat::found(found, title) {
+        return page;
+    }
     let show = Show {
         found,
         faces: FaceSamples::of(found),

@@ -2,7 +2,7 @@
 
 use crate::cluster::Projection;
 use crate::job::Detected;
-use crate::job::pictures::hue;
+use crate::job::pictures::{flat, hue};
 use crate::picture::canvas::Text;
 use crate::picture::{Canvas, DensityPlot, Extent, PlotMode};
 use crate::report::refusals::highest_of;
@@ -22,6 +22,9 @@ const SHARPNESS: f64 = 0.5;
 /// The votes of `found`, each class in the two main axes of its own cloud, clusters marked: symmetries
 /// by their ids, the highest modes that are none in grey.
 pub fn density(found: &Detected, bandwidth: f64, title: &str) -> Canvas {
+    if let Some(page) = flat::plotted(found, bandwidth, title) {
+        return page;
+    }
     let clouds = &found.detection.clouds;
     let side = SIDES[usize::from(clouds.len() > 1)];
     let top = if title.is_empty() { 0 } else { TITLE };
@@ -96,6 +99,7 @@ impl Votes {
             weights: &self.weights,
             modes: &self.modes,
             bandwidth: SHARPNESS * bandwidth,
+            shown: Default::default(),
             axes,
             title,
         }
