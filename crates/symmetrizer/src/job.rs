@@ -14,6 +14,7 @@ use crate::context::Context;
 use crate::deform::{Igarashi, Stiffness};
 use crate::detect::{DetectParams, Detection, Group, detect, detect_in_plane};
 use crate::error::Result;
+use crate::optimize::outcome::mirrors;
 use crate::optimize::schedule::Settings;
 use crate::optimize::{Optimized, Outcome, optimize};
 use crate::params::Params;
@@ -170,7 +171,10 @@ fn made(
     only: bool,
     ctx: &mut Context<'_>,
 ) -> Result<Symmetrized> {
-    let detect = params.detect().mirrors_only();
+    let detect = match before.wall {
+        Some(_) => plane::sought(params),
+        None => params.detect().mirrors_only(),
+    };
     let measured = ctx.stage("measure", |ctx| before.asymmetry(&[], ctx))?;
     let stiffness = stiffness.per_face(&before.working);
     let settings = Settings {
@@ -182,9 +186,12 @@ fn made(
         optimize: &params.optimize,
     };
     let surface = &before.working.surface;
-    let exact = measured.max <= EXACT && !before.symmetries().is_empty();
+    let exact = measured.max <= EXACT && mirrors(&before.detection).next().is_some();
     let (mut bend, mut bent) = (None, None);
-    let done = if exact {
+    let group = plane::group(&before).filter(|_| !only);
+    let done = if let Some(group) = group {
+        plane::orbited(&before, group, settings, ctx)?
+    } else if exact {
         let outcome = if only {
             Outcome::NoSymmetry
         } else {
@@ -322,7 +329,7 @@ impl Detected {
     /// As [`asymmetry()`].
     pub fn asymmetry(&self, known: &[Plane], ctx: &Context<'_>) -> Result<Asymmetry> {
         let mut planes = known.to_vec();
-        planes.extend(self.symmetries().iter().map(Symmetry::plane));
+        planes.extend(mirrors(&self.detection).map(Symmetry::plane));
         match &self.wall {
             Some(wall) => asymmetry_of_outline(wall, self.diagonal, &planes, ctx),
             None => asymmetry(&self.working.surface, self.diagonal, &planes, ctx),

@@ -170,6 +170,17 @@ fn done(step: &Step) -> String {
             if *kept { "" } else { "; undone" }
         ),
         Step::ContractWhole { steps, .. } => format!("contracted the whole in {steps} steps"),
+        Step::Orbits {
+            group,
+            order,
+            rounds,
+            residual,
+        } => format!(
+            "moved the orbits of {group} (order {order}) to their means in {rounds} rounds: copies {:.3} -> {:.4} % \
+             of L from the outline",
+            100.0 * residual[0],
+            100.0 * residual[1]
+        ),
         Step::Finish {
             rounds,
             asymmetry,

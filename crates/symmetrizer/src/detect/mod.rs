@@ -10,6 +10,7 @@ mod mirrors;
 mod pass;
 mod search;
 mod surroundings;
+mod turns;
 pub mod wanted;
 
 pub use groups::Group;
@@ -29,7 +30,7 @@ use crate::shape::fairing::faired;
 use crate::shape::wall::Wall;
 use crate::shape::{ClosestPoint, Surface};
 use crate::slip::{Continuous, SlipParams, continuous};
-use crate::transform::{Class, TransformSpace};
+use crate::transform::{Class, Kind, TransformSpace};
 
 /// Parameters of detection, a section for each stage.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -123,11 +124,11 @@ pub fn detect(
     let surface = fair.as_ref().unwrap_or(surface);
     let describer = Describer::new(surface, if fair.is_some() { WIDENING } else { 1.0 });
     let samples = ctx.stage("sample", |ctx| sample(&describer, &params.sample, ctx))?;
-    find(&describer, samples, params, ctx)
+    find(&describer, samples, params, false, ctx)
 }
 
-/// Finds the mirror lines of an outline, partial ones too, as mirrors at right angles to its plane. Motions and
-/// continuous symmetries of the plane are not looked for yet.
+/// Finds the mirror lines of an outline, partial ones too, as mirrors at right angles to its plane, and the turns that
+/// hold for the whole of it.
 ///
 /// # Errors
 /// As [`detect`].
@@ -136,6 +137,7 @@ pub fn detect_in_plane(
     params: &DetectParams,
     ctx: &mut Context<'_>,
 ) -> Result<Detection> {
+    let rotations = params.wanted.has(Kind::Rotation);
     let params = DetectParams {
         wanted: Wanted::mirrors(),
         slip: None,
@@ -145,14 +147,16 @@ pub fn detect_in_plane(
     let samples = ctx.stage("sample", |ctx| {
         sample_outline(&describer, wall, &params.sample, ctx)
     })?;
-    find(&describer, samples, &params, ctx)
+    find(&describer, samples, &params, rotations, ctx)
 }
 
-/// What there is to be found among `samples` of the surface of `describer`.
+/// What there is to be found among `samples` of the surface of `describer`; with the turns of the whole where it is
+/// an outline that may be `turned`.
 fn find(
     describer: &Describer<'_>,
     samples: Samples,
     params: &DetectParams,
+    turned: bool,
     ctx: &mut Context<'_>,
 ) -> Result<Detection> {
     let surface = describer.surface;
@@ -213,6 +217,9 @@ fn find(
             complete::complete(&surroundings, &mut symmetries, &drifting, ctx)
         })?;
     }
+    if turned {
+        symmetries.extend(turns::turns(&ground));
+    }
     for (id, s) in (0..).zip(&mut symmetries) {
         s.id = id;
     }
@@ -221,7 +228,13 @@ fn find(
         .filter(|c| c.is_telling(&samples))
         .cloned()
         .collect();
-    let groups = arrange::arrange(&surroundings, &symmetries);
+    let turn = symmetries
+        .iter()
+        .find(|s| turned && s.class == Class::Proper);
+    let groups = match turn {
+        Some(turn) => vec![turns::group(turn, &symmetries)],
+        None => arrange::arrange(&surroundings, &symmetries),
+    };
     Ok(Detection {
         samples,
         space,

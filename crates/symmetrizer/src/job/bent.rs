@@ -7,6 +7,7 @@ use crate::field::Reach;
 use crate::field::grow::Land;
 use crate::field::trust::Verdict;
 use crate::job::{Detected, plane};
+use crate::optimize::outcome::mirrors;
 use crate::optimize::schedule::{Settings, prepared};
 use crate::optimize::{Optimized, Step, complete};
 use crate::report::{BendReport, KeptReport};
@@ -49,7 +50,8 @@ pub(super) fn unbend(
         done: None,
     };
     let plane = before.wall.is_some();
-    if params.when == When::Never || before.symmetries().is_empty() && !plane {
+    let mirrors: Vec<_> = mirrors(&before.detection).map(|s| s.q_from_p).collect();
+    if params.when == When::Never || mirrors.is_empty() && !plane {
         return Ok(nothing);
     }
     let surface = &before.working.surface;
@@ -62,7 +64,6 @@ pub(super) fn unbend(
     let land = Land::new(surface, &closest, samples, &reach)
         .with_stiffness(settings.stiffness)
         .with_wall(settings.wall);
-    let mirrors: Vec<_> = before.symmetries().iter().map(|s| s.q_from_p).collect();
     let found = ctx.stage("bend", |ctx| Bend::find(&land, &mirrors, ctx))?;
     let Some(bend) = found else {
         return Ok(nothing);

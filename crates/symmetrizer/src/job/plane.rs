@@ -3,16 +3,20 @@
 use crate::apply::measure::asymmetry_of_outline;
 use crate::context::Context;
 use crate::deform::{Igarashi, Stiffness, carry};
-use crate::detect::DetectParams;
+use crate::detect::{DetectParams, Group, Want, Wanted};
 use crate::drawing::{Drawing, Outline};
 use crate::error::{Error, Result};
 use crate::geom::{Matrix3, Point, Vector};
 use crate::job::{Detected, Measured, Symmetrized, made};
-use crate::optimize::Outcome;
+use crate::optimize::orbits::orbits;
+use crate::optimize::outcome::mirrors;
+use crate::optimize::schedule::{Settings, prepared};
+use crate::optimize::{Optimized, Outcome, Step};
 use crate::params::Params;
 use crate::shape::wall::Wall;
 use crate::shape::working::{Normalization, Working};
 use crate::shape::{ClosestPoint, Mesh, Surface};
+use crate::transform::Class;
 
 /// A drawing made symmetric, and how.
 pub struct Drawn {
@@ -28,7 +32,7 @@ const WHOLE: f64 = 0.7;
 
 /// Whether one mirror holds for the whole of a shape of the plane, or the shape is one of space.
 pub(super) fn mirrored(found: &Detected) -> bool {
-    let holds = found.symmetries().iter().any(|s| s.area_fraction >= WHOLE);
+    let holds = mirrors(&found.detection).any(|s| s.area_fraction >= WHOLE);
     found.wall.is_none() || holds
 }
 
@@ -54,7 +58,9 @@ pub(super) fn give_up_on_worse(job: &mut Symmetrized, ctx: &mut Context<'_>) {
     let worse = result.asymmetry.mean > BETTER * before + FLOOR;
     let crossed = result.distortion.new_crossings as f64 / wall.edges() as f64 > CROSSED;
     // What is only straightened stays asymmetric for the rest.
-    let only = job.report.head.params.optimize.final_steps == 0;
+    let orbits = |step: &Step| matches!(step, Step::Orbits { .. });
+    let only =
+        job.report.head.params.optimize.final_steps == 0 || job.report.steps.iter().any(orbits);
     if worse && !only || crossed {
         ctx.warn(format!(
             "the drawing is left as it is: made symmetric, {} ({:.2} % of D from symmetric, was {before:.2})",
@@ -69,6 +75,57 @@ pub(super) fn give_up_on_worse(job: &mut Symmetrized, ctx: &mut Context<'_>) {
         let wall = wall.clone();
         job.shape = corners(&wall);
     }
+}
+
+/// What is looked for in a drawing that is to be made symmetric.
+pub(super) fn sought(params: &Params) -> DetectParams {
+    let detect = params.detect();
+    let kinds = [Want::Mirror, Want::Rotation];
+    let kinds = kinds
+        .into_iter()
+        .filter(|&want| detect.wanted.kinds.contains(&want));
+    DetectParams {
+        wanted: Wanted {
+            kinds: kinds.collect(),
+        },
+        ..detect.clone().mirrors_only()
+    }
+}
+
+/// The group of a drawing that has turns, one with more than them where it has lines, too.
+pub(super) fn group(found: &Detected) -> Option<&Group> {
+    found.wall.as_ref()?;
+    let turn = found
+        .symmetries()
+        .iter()
+        .find(|s| s.class == Class::Proper)?;
+    found.group_of(turn.id)
+}
+
+/// The orbits of a drawing under `group` moved to their means.
+pub(super) fn orbited(
+    before: &Detected,
+    group: &Group,
+    settings: Settings<'_>,
+    ctx: &mut Context<'_>,
+) -> Result<Optimized> {
+    let surface = &before.working.surface;
+    let done = ctx.stage("orbits", |ctx| {
+        orbits(surface, &group.elements, settings.stiffness, ctx)
+    })?;
+    let unmoved = Optimized::unmoved(surface, &before.detection, Outcome::Converged);
+    let body = prepared(surface, settings)?;
+    Ok(Optimized {
+        energy: body.energy_at(&done.positions),
+        steps: vec![Step::Orbits {
+            group: group.name.clone(),
+            order: group.order,
+            rounds: done.rounds,
+            residual: done.residual,
+        }],
+        positions: done.positions,
+        ..unmoved
+    })
 }
 
 /// Finds the symmetries of a drawing's outline.
@@ -111,7 +168,7 @@ pub fn unbend_drawing(drawing: &Drawing, params: &Params, ctx: &mut Context<'_>)
 fn work(drawing: &Drawing, params: &Params, only: bool, ctx: &mut Context<'_>) -> Result<Drawn> {
     params.check()?;
     warn_of(drawing, ctx);
-    let detect = params.detect().mirrors_only();
+    let detect = sought(params);
     let (mesh, before) = find(drawing.outline(), &detect, ctx)?;
     let job = made(&mesh, before, &Stiffness::default(), params, only, ctx)?;
     let drawing = match (&job.before.wall, &job.after) {

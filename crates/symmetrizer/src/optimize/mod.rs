@@ -6,6 +6,7 @@ pub mod finish;
 pub mod glide;
 pub mod merge;
 pub mod moving;
+pub mod orbits;
 pub mod outcome;
 pub mod params;
 mod rounds;

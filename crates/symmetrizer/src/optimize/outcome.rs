@@ -6,7 +6,7 @@ use crate::detect::Detection;
 use crate::geom::Point;
 use crate::patch::Symmetry;
 use crate::shape::Surface;
-use crate::transform::Plane;
+use crate::transform::{Class, Plane};
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -78,6 +78,17 @@ pub enum Step {
         /// Deformation energy after it.
         energy: f64,
     },
+    /// All orbits of a group were moved to their means.
+    Orbits {
+        /// Its name.
+        group: String,
+        /// The number of its elements.
+        order: usize,
+        /// Rounds.
+        rounds: usize,
+        /// Mean distance of the copies of the surface from it before and after, fraction of L.
+        residual: [f64; 2],
+    },
     /// The finish at full resolution.
     Finish {
         /// Rounds.
@@ -110,7 +121,7 @@ impl Optimized {
     pub fn unmoved(surface: &Surface, detection: &Detection, outcome: Outcome) -> Self {
         Self {
             positions: surface.positions.clone(),
-            plane: detection.symmetries.first().map(Symmetry::plane),
+            plane: mirrors(detection).next().map(Symmetry::plane),
             outcome,
             steps: Vec::new(),
             energy: 0.0,
@@ -123,4 +134,10 @@ impl Optimized {
 pub fn next_id(detection: &Detection) -> u32 {
     let ids = detection.symmetries.iter().map(|s| s.id + 1);
     ids.max().unwrap_or(0)
+}
+
+/// The mirrors of a detection.
+pub fn mirrors(detection: &Detection) -> impl Iterator<Item = &Symmetry> {
+    let all = detection.symmetries.iter();
+    all.filter(|s| s.class == Class::Mirror)
 }

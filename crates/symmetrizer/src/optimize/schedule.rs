@@ -9,14 +9,14 @@ use crate::optimize::contract::{contract, contract_whole};
 use crate::optimize::finish::finish;
 use crate::optimize::merge::{merge, ownership};
 use crate::optimize::moving::Moving;
-use crate::optimize::outcome::{Optimized, Outcome, Step, next_id};
+use crate::optimize::outcome::{Optimized, Outcome, Step, mirrors, next_id};
 use crate::optimize::params::OptimizeParams;
 use crate::optimize::untangle::untangle;
 use crate::patch::{Symmetry, carry_ids};
 use crate::sample::{Sample, Samples};
 use crate::shape::wall::Wall;
 use crate::shape::{ClosestPoint, Surface};
-use crate::transform::{Isometry, Plane};
+use crate::transform::{Class, Isometry, Plane};
 
 /// Parameters of [`optimize`].
 #[derive(Debug, Clone, Copy)]
@@ -55,7 +55,7 @@ pub fn optimize(
     ctx: &mut Context<'_>,
 ) -> Result<Optimized> {
     settings.optimize.check()?;
-    if detection.symmetries.is_empty() {
+    if mirrors(detection).next().is_none() {
         return Ok(Optimized::unmoved(surface, detection, Outcome::NoSymmetry));
     }
     let mut deformer = ctx.stage("prepare", |_| prepared(surface, settings))?;
@@ -83,6 +83,7 @@ fn worthwhile(found: &[Symmetry], settings: Settings<'_>, count: usize) -> Vec<S
     let rank = |s: &Symmetry| s.area_fraction * (1.0 - s.rms / settings.detect.patch.tolerance);
     let mut ordered: Vec<&Symmetry> = found
         .iter()
+        .filter(|s| s.class == Class::Mirror)
         .filter(|s| s.height >= settings.optimize.min_height * highest)
         .collect();
     ordered.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
