@@ -53,6 +53,10 @@ pub struct RunArgs {
     /// Write the input here too, say a generated one
     #[arg(long, value_name = "FILE")]
     write_input: Option<PathBuf>,
+    /// Of a drawing, write the outline alone, the line of symmetry upright and both sides the same to the last
+    /// digit
+    #[arg(long)]
+    exact: bool,
     #[command(flatten)]
     bitmaps: Bitmaps,
     #[command(flatten)]
@@ -79,7 +83,9 @@ pub fn run(args: &RunArgs, desk: &Desk) -> Result<Answer> {
             let what = "is for shapes of space; a drawing is as stiff everywhere";
             Err(Error::params("--stiffness", what))
         }
-        Subject::Drawing(drawing) => Ok(Done::drawing(symmetrize_drawing(drawing, params, ctx)?)),
+        Subject::Drawing(drawing) => {
+            Done::drawing(symmetrize_drawing(drawing, params, ctx)?, args.exact)
+        }
     })
 }
 
@@ -94,7 +100,9 @@ pub fn straighten(args: &RunArgs, desk: &Desk) -> Result<Answer> {
             let job = unbend(&document.mesh, params, ctx)?;
             Ok(Done::shape(document, job))
         }
-        Subject::Drawing(drawing) => Ok(Done::drawing(unbend_drawing(drawing, params, ctx)?)),
+        Subject::Drawing(drawing) => {
+            Done::drawing(unbend_drawing(drawing, params, ctx)?, args.exact)
+        }
     })
 }
 
@@ -112,11 +120,15 @@ impl Done {
         }
     }
 
-    fn drawing(drawn: Drawn) -> Self {
-        Self {
+    /// With the `exact` outline instead of the file's own paths, where that is wanted.
+    fn drawing(mut drawn: Drawn, exact: bool) -> Result<Self> {
+        if exact && drawn.job.after.is_some() {
+            drawn.drawing = drawn.exact()?;
+        }
+        Ok(Self {
             result: Subject::Drawing(drawn.drawing),
             job: drawn.job,
-        }
+        })
     }
 }
 
@@ -130,6 +142,10 @@ fn carry_out(
     let files = Files::reserve(args)?;
     let mut ctx = desk.context();
     let input = args.input.subject(&args.bitmaps, &mut ctx)?;
+    if args.exact && matches!(input, Subject::Shape(_)) {
+        let what = "is for drawings; of a mesh every vertex keeps its place in the file's order";
+        return Err(Error::params("--exact", what));
+    }
     for file in std::iter::once(&files.output).chain(&files.input) {
         file.check(&input)?;
     }

@@ -8,6 +8,7 @@
 
 mod bitmap;
 mod crossings;
+mod exact;
 mod flat;
 mod format;
 mod fresh;
@@ -166,6 +167,17 @@ impl Drawing {
             kept,
             warnings: self.warnings.clone(),
         })
+    }
+
+    /// The drawing's outline alone, exactly symmetric about the line n.x = offset (drawing coordinates, `normal` of
+    /// length 1, z = 0): what lies on its far side is left out, and what lies on its near side is there twice, to the
+    /// last digit of a written file. The line is x = 0 then.
+    ///
+    /// # Errors
+    /// [`Error::Input`] where nothing lies on the near side.
+    pub fn exact(&self, normal: crate::geom::Vector, offset: f64) -> Result<Self> {
+        let text = exact::svg(&self.outline, normal, offset)?;
+        decode(text.into_bytes(), Format::Svg, &Reading::default())
     }
 
     /// The text of an SVG file: the drawing's own if it came from one, else a new one with the

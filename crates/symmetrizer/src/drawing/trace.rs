@@ -47,6 +47,21 @@ impl Tracer {
         curves
     }
 
+    /// An open row of points as curves.
+    pub fn chain(&self, points: &[Point]) -> Vec<CubicBez> {
+        let last = points.len() - 1;
+        let mut ends = vec![0];
+        // As if it were a ring: what is found at its ends is none of the row's.
+        let corners = self.corners(points).into_iter();
+        ends.extend(corners.filter(|c| (1..last).contains(c)));
+        ends.push(last);
+        let mut curves = Vec::new();
+        for piece in ends.windows(2) {
+            self.piece(&points[piece[0]..=piece[1]], false, &mut curves);
+        }
+        curves
+    }
+
     /// Where the ring turns sharply, and more so than nearby.
     fn corners(&self, points: &[Point]) -> Vec<usize> {
         let turns: Vec<f64> = (0..points.len()).map(|i| self.turn(points, i)).collect();

@@ -26,6 +26,28 @@ pub struct Drawn {
     pub job: Symmetrized,
 }
 
+impl Drawn {
+    /// The result's outline alone, exactly symmetric about its line to the last digit of a written file; see
+    /// [`Drawing::exact`].
+    ///
+    /// # Errors
+    /// [`Error::Input`] where no line was found, or the symmetry is one of turns alone.
+    pub fn exact(&self) -> Result<Drawing> {
+        let line = self.job.after.as_ref().filter(|after| {
+            let group = group(after);
+            group.is_none_or(|g| g.name.starts_with('D'))
+        });
+        let Some(after) = line else {
+            let what = "there is no line about which the drawing could be exactly symmetric";
+            return Err(Error::input(what, "write it without --exact"));
+        };
+        let (plane, normalization) = (self.job.planes[1], after.working.normalization);
+        let on = normalization.to_document(&Point::from(plane.normal * plane.offset));
+        self.drawing
+            .exact(plane.normal, plane.normal.dot(&on.coords))
+    }
+}
+
 /// Share of an outline that one line must hold for: a drawing of which only a part has a line, straight or bent, is
 /// left as it is.
 const WHOLE: f64 = 0.7;
