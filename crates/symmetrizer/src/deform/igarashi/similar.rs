@@ -9,7 +9,7 @@ use crate::geom::Point;
 use crate::shape::Surface;
 
 /// Share of the mean diagonal that is added to it: parts that too few pulls hold stay where they are.
-const RIDGE: f64 = 1e-8;
+const RIDGE: f64 = 1e-12;
 /// Weight of a place that is held.
 const HELD: f64 = 1e6;
 

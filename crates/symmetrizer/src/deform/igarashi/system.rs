@@ -12,7 +12,7 @@ use crate::shape::{Surface, SurfacePoint};
 /// Cotangents are kept within this range: obtuse angles would else push neighbours apart.
 const COTANGENT: (f64, f64) = (0.02, 20.0);
 /// Share of the mean diagonal that is added to it: parts that nothing holds stay where they are.
-const RIDGE: f64 = 1e-8;
+const RIDGE: f64 = 1e-11;
 
 /// What is held where.
 pub struct Held {
