@@ -7,6 +7,7 @@ mod bench_straighten;
 mod constraints;
 mod data;
 mod gallery_deform;
+mod gallery_plane;
 mod tables;
 mod terminal;
 
@@ -29,6 +30,7 @@ enum Verb {
     BenchPlane(bench_plane::Args),
     BenchStraighten(bench_straighten::Args),
     GalleryDeform(gallery_deform::Args),
+    GalleryPlane(gallery_plane::Args),
 }
 
 const EXIT_CODES: &str =
@@ -51,6 +53,7 @@ fn main() -> ExitCode {
         Verb::BenchPlane(args) => bench_plane::run(args),
         Verb::BenchStraighten(args) => bench_straighten::run(args),
         Verb::GalleryDeform(args) => gallery_deform::run(args),
+        Verb::GalleryPlane(args) => gallery_plane::run(args),
     };
     match answer {
         Ok(Answer::Done) => ExitCode::SUCCESS,

@@ -16,6 +16,7 @@ use crate::params::Params;
 use crate::shape::wall::Wall;
 use crate::shape::working::{Normalization, Working};
 use crate::shape::{ClosestPoint, Mesh, Surface};
+use crate::straighten::When;
 use crate::transform::Class;
 
 /// A drawing made symmetric, and how.
@@ -61,11 +62,12 @@ pub(super) fn mirrored(found: &Detected) -> bool {
 /// A drawing is to lose this share of its asymmetry at the least, and no more than this share of its edges may cross
 /// others, or it is left.
 const BETTER: f64 = 0.5;
-const CROSSED: f64 = 0.005;
+const CROSSED: f64 = 0.01;
 /// Asymmetry, % of D, that may come and go.
 const FLOOR: f64 = 0.01;
 
-/// Takes a drawing's result back where it is hardly more symmetric than the input, or tangled.
+/// Takes a drawing's result back where it is hardly more symmetric than the input, or tangled; the latter not where
+/// what is uncertain was to be done all the same.
 pub(super) fn give_up_on_worse(job: &mut Symmetrized, ctx: &mut Context<'_>) {
     let (Some(wall), Some(result)) = (&job.before.wall, &job.report.result) else {
         return;
@@ -83,7 +85,8 @@ pub(super) fn give_up_on_worse(job: &mut Symmetrized, ctx: &mut Context<'_>) {
     let orbits = |step: &Step| matches!(step, Step::Orbits { .. });
     let only =
         job.report.head.params.optimize.final_steps == 0 || job.report.steps.iter().any(orbits);
-    if worse && !only || crossed {
+    let asked = job.report.head.params.straighten.when == When::Uncertain;
+    if worse && !only || crossed && !asked {
         ctx.warn(format!(
             "the drawing is left as it is: made symmetric, {} ({:.2} % of D from symmetric, was {before:.2})",
             if crossed { "it would cross itself" } else { "it would hardly be more so" },
