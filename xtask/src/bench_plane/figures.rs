@@ -2,6 +2,7 @@
 
 use symmetrizer::Report;
 use symmetrizer::geom::{Point, Vector};
+use symmetrizer::optimize::Step;
 
 use crate::tables::number;
 
@@ -34,7 +35,12 @@ impl Figures {
         let bend = report.bend.as_ref();
         let result = report.result.as_ref();
         let asymmetry = report.input.shape.asymmetry.as_ref();
+        let group = report.steps.iter().find_map(|step| match step {
+            Step::Orbits { group, .. } => Some(group.clone()),
+            _ => None,
+        });
         let verdict = match (bend, result) {
+            _ if group.is_some() => group.unwrap_or_default(),
             (None, None) => "nothing".into(),
             (None, Some(_)) => "mirror".into(),
             (Some(bend), done) => {

@@ -62,7 +62,7 @@ pub(super) fn mirrored(found: &Detected) -> bool {
 /// A drawing is to lose this share of its asymmetry at the least, and no more than this share of its edges may cross
 /// others, or it is left.
 const BETTER: f64 = 0.5;
-const CROSSED: f64 = 0.01;
+const CROSSED: f64 = 0.006;
 /// Asymmetry, % of D, that may come and go.
 const FLOOR: f64 = 0.01;
 

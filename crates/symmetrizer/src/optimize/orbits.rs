@@ -10,6 +10,7 @@ use crate::context::Context;
 use crate::deform::smooth::SmoothField;
 use crate::error::{Error, Result};
 use crate::geom::{Point, Vector};
+use crate::optimize::untangle::untangle;
 use crate::shape::{ClosestPoint, Surface};
 use crate::transform::Isometry;
 
@@ -37,7 +38,8 @@ pub struct Orbited {
     pub residual: [f64; 2],
 }
 
-/// Moves the orbits of `surface` under a group, all of its `elements`, to their means.
+/// Moves the orbits of `surface` under a point group, all of its `elements`, to their means. A shape that has the
+/// group has it about its centroid, so that is where it is taken to be.
 ///
 /// # Errors
 /// [`Error::Numerical`], [`Error::Cancelled`].
@@ -55,6 +57,8 @@ pub fn orbits(
     let mut field = SmoothField::new(surface, stiffness).map_err(failure)?;
     let mut closest = ClosestPoint::new(surface);
     let mut now = surface.clone();
+    let elements: Vec<Isometry> = about(&centroid(surface), elements);
+    let elements = elements.as_slice();
     let mut aim = Aim::at(&now, elements, &closest);
     let before = aim.residual;
     let mut length = LENGTHS[0];
@@ -83,11 +87,28 @@ pub fn orbits(
         }
         length = (length * REFINE).max(LENGTHS[1]);
     }
+    let (now, _) = untangle(surface, now);
+    closest.follow(&now);
     Ok(Orbited {
-        residual: [before, aim.residual],
+        residual: [before, Aim::at(&now, elements, &closest).residual],
         positions: now.positions,
         rounds,
     })
+}
+
+fn centroid(surface: &Surface) -> Point {
+    let weighted = surface.positions.iter().zip(&surface.vertex_areas);
+    let sum: Vector = weighted.map(|(x, a)| x.coords * *a).sum();
+    Point::from(sum / surface.area())
+}
+
+/// The same elements with this fixed point.
+fn about(centre: &Point, elements: &[Isometry]) -> Vec<Isometry> {
+    let moved = |g: &Isometry| Isometry {
+        linear: g.linear,
+        translation: centre.coords - g.linear * centre.coords,
+    };
+    elements.iter().map(moved).collect()
 }
 
 /// Where the vertices should go.
