@@ -130,15 +130,8 @@ pub fn symmetrize_with(
     params: &Params,
     ctx: &mut Context<'_>,
 ) -> Result<Symmetrized> {
-    mesh.check()?;
     stiffness.check(mesh)?;
-    params.check()?;
-    let before = find_in(
-        Working::new(mesh)?,
-        mesh,
-        &params.detect().mirrors_only(),
-        ctx,
-    )?;
+    let before = mirrors_in(mesh, params, ctx)?;
     made(mesh, before, stiffness, params, false, ctx)
 }
 
@@ -151,15 +144,16 @@ pub fn unbend(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result<Sym
     let mut params = params.clone();
     params.optimize.final_steps = 0;
     params.optimize.finish_rounds = 0;
+    let before = mirrors_in(mesh, &params, ctx)?;
+    made(mesh, before, &Stiffness::default(), &params, true, ctx)
+}
+
+/// The mirrors of a mesh that is to be made symmetric.
+fn mirrors_in(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result<Detected> {
     mesh.check()?;
     params.check()?;
-    let before = find_in(
-        Working::new(mesh)?,
-        mesh,
-        &params.detect().mirrors_only(),
-        ctx,
-    )?;
-    made(mesh, before, &Stiffness::default(), &params, true, ctx)
+    let detect = params.detect().mirrors_only();
+    find_in(Working::new(mesh)?, mesh, &detect, ctx)
 }
 
 /// [`symmetrize_with`], or [`unbend`] where `only` that is to be done, of `mesh` whose mirrors were found.

@@ -211,14 +211,17 @@ fn outcome(outcome: Outcome) -> &'static str {
     }
 }
 
-/// A vector or point with four significant digits.
+/// A vector or point with four significant digits; what is nothing beside the rest is 0.
 fn place(x: [f64; 3]) -> String {
-    let [x, y, z] = x.map(short);
+    let size = x.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+    let [x, y, z] = x.map(|c| short(if c.abs() < 1e-12 * size { 0.0 } else { c }));
     format!("({x}, {y}, {z})")
 }
 
 /// A direction.
-fn direction([x, y, z]: [f64; 3]) -> String {
+fn direction(d: [f64; 3]) -> String {
+    // No -0.000.
+    let [x, y, z] = d.map(|c| if c.abs() < 5e-4 { 0.0 } else { c });
     format!("({x:6.3}, {y:6.3}, {z:6.3})")
 }
 

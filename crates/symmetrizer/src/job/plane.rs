@@ -59,6 +59,11 @@ pub(super) fn mirrored(found: &Detected) -> bool {
     found.wall.is_none() || holds
 }
 
+/// Points of an outline that are worked on; of more, those are left out that say least, at first those within this
+/// share of the diagonal of the lines between the others.
+const POINTS: usize = 5000;
+const FINEST: f64 = 1e-5;
+
 /// A drawing is to lose this share of its asymmetry at the least, and no more than this share of its edges may cross
 /// others, or it is left.
 const BETTER: f64 = 0.5;
@@ -213,6 +218,21 @@ fn warn_of(drawing: &Drawing, ctx: &mut Context<'_>) {
     }
 }
 
+/// The rings of an outline with no more points than the work needs.
+fn few(outline: &Outline) -> Vec<Vec<Point>> {
+    if outline.len() <= POINTS {
+        return outline.rings.iter().map(|r| r.points.clone()).collect();
+    }
+    let mut tolerance = FINEST * outline.diagonal();
+    loop {
+        let rings = outline.simplified(tolerance);
+        if rings.iter().map(Vec::len).sum::<usize>() <= POINTS {
+            return rings;
+        }
+        tolerance *= 2.0;
+    }
+}
+
 /// The mesh of an outline's corners and the wall over it.
 fn walled(outline: &Outline) -> Result<(Mesh, Wall)> {
     if outline.is_empty() {
@@ -221,8 +241,7 @@ fn walled(outline: &Outline) -> Result<(Mesh, Wall)> {
             "it needs a closed path that is filled, or a stroke that has a width",
         ));
     }
-    let rings: Vec<Vec<Point>> = outline.rings.iter().map(|r| r.points.clone()).collect();
-    let wall = Wall::new(&rings)?;
+    let wall = Wall::new(&few(outline))?;
     Ok((corners(&wall), wall))
 }
 

@@ -1,6 +1,7 @@
 //! The region of the plane that is made symmetric, as closed rings.
 
 mod bend;
+mod simple;
 
 use crate::geom::Point;
 
@@ -136,6 +137,14 @@ impl Outline {
         let bent = |r: &Ring| bend::ring(r, map, tolerance);
         let rings = self.rings.iter().map(bent).collect();
         self.facing_as_before(Self { rings })
+    }
+
+    /// The points of its rings, as few as leave none further than `tolerance`, drawing units, from the lines between
+    /// them; rings that are smaller are left out.
+    pub fn simplified(&self, tolerance: f64) -> Vec<Vec<Point>> {
+        let rings = self.rings.iter();
+        let kept = rings.map(|ring| simple::kept(&ring.points, tolerance));
+        kept.filter(|ring| ring.len() > 2).collect()
     }
 
     fn facing_as_before(&self, mut moved: Self) -> Self {
