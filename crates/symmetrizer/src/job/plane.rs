@@ -61,7 +61,7 @@ pub(super) fn mirrored(found: &Detected) -> bool {
 
 /// Points of an outline that are worked on; of more, those are left out that say least, at first those within this
 /// share of the diagonal of the lines between the others.
-const POINTS: usize = 5000;
+const POINTS: usize = 1500;
 const FINEST: f64 = 1e-5;
 
 /// A drawing is to lose this share of its asymmetry at the least, and no more than this share of its edges may cross
