@@ -398,3 +398,25 @@ fn a_prescribed_rotation_is_where_a_deformation_begins() {
     assert!(body.start_from(&[0.0]).is_err());
     assert!(body.set_stiffness_inside(&vec![0.0; count]).is_err());
 }
+
+#[test]
+fn a_pose_is_kept_on_request() {
+    let Some(drawing) = drawing("truth/gecko_bent.svg") else {
+        return;
+    };
+    let mut params = Params::default();
+    params.straighten.share = 0.0;
+    let done = symmetrize_drawing(&drawing, &params, &mut Context::new(0)).expect("a run");
+    let report = &done.job.report;
+    let kept = report.bend.as_ref().and_then(|b| b.kept.as_ref());
+    let kept = kept.expect("a pose that was kept");
+    println!("across {:.4} % of D, line {:.3} %", kept.across, kept.line);
+    assert!(kept.across <= 0.1 && kept.line <= 0.3);
+    let result = report.result.as_ref().expect("a result");
+    assert!(result.distortion.rms < 2.0, "{}", result.distortion.rms);
+    // Stopped early, a run keeps what it reached.
+    let mut params = Params::default();
+    params.optimize.max_deformation = Some(5e-4);
+    let done = symmetrize_drawing(&drawing, &params, &mut Context::new(0)).expect("a run");
+    assert!(done.job.report.result.is_some());
+}

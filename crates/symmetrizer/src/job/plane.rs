@@ -71,8 +71,7 @@ const CROSSED: f64 = 0.006;
 /// Asymmetry, % of D, that may come and go.
 const FLOOR: f64 = 0.01;
 
-/// Takes a drawing's result back where it is hardly more symmetric than the input, or tangled; the latter not where
-/// what is uncertain was to be done all the same.
+/// Takes a drawing's result back where it is hardly more symmetric than the input, or tangled.
 pub(super) fn give_up_on_worse(job: &mut Symmetrized, ctx: &mut Context<'_>) {
     let (Some(wall), Some(result)) = (&job.before.wall, &job.report.result) else {
         return;
@@ -86,17 +85,15 @@ pub(super) fn give_up_on_worse(job: &mut Symmetrized, ctx: &mut Context<'_>) {
         .map_or(0.0, |a| a.mean);
     let worse = result.asymmetry.mean > BETTER * before + FLOOR;
     let crossed = result.distortion.new_crossings as f64 / wall.edges() as f64 > CROSSED;
-    // What is only straightened stays asymmetric for the rest.
-    let orbits = |step: &Step| matches!(step, Step::Orbits { .. });
-    let only =
-        job.report.head.params.optimize.final_steps == 0 || job.report.steps.iter().any(orbits);
-    let asked = job.report.head.params.straighten.when == When::Uncertain;
-    if worse && !only || crossed && !asked {
+    if (worse || crossed) && !asked_for(job) {
         ctx.warn(format!(
             "the drawing is left as it is: made symmetric, {} ({:.2} % of D from symmetric, was {before:.2})",
             if crossed { "it would cross itself" } else { "it would hardly be more so" },
             result.asymmetry.mean
         ));
+        if let Some(bend) = &mut job.report.bend {
+            bend.removed = 0.0;
+        }
         job.report.result = None;
         job.report.steps.clear();
         job.report.outcome = Outcome::NoSymmetry;
@@ -105,6 +102,18 @@ pub(super) fn give_up_on_worse(job: &mut Symmetrized, ctx: &mut Context<'_>) {
         let wall = wall.clone();
         job.shape = corners(&wall);
     }
+}
+
+/// Whether it was to be done all the same: what is uncertain, only a part of it, or nothing but unbending. The orbits
+/// of a group have no line to be measured by.
+fn asked_for(job: &Symmetrized) -> bool {
+    let params = &job.report.head.params;
+    let orbits = |step: &Step| matches!(step, Step::Orbits { .. });
+    params.straighten.when != When::Accepted
+        || params.straighten.share < 1.0
+        || params.optimize.max_deformation.is_some()
+        || params.optimize.final_steps == 0
+        || job.report.steps.iter().any(orbits)
 }
 
 /// What is looked for in a drawing that is to be made symmetric.
