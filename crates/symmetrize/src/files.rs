@@ -40,8 +40,10 @@ impl ShapeFile {
     pub fn check(&self, subject: &Subject) -> Result<()> {
         let path = self.0.target();
         match subject {
-            Subject::Shape(_) => Format::of_path(path).map(|_| ()),
-            Subject::Drawing(_) => drawing::Format::of_path(path).map(|_| ()),
+            Subject::Drawing(drawing) if is_drawing(path) || drawing.document().is_none() => {
+                drawing::Format::of_path(path).map(|_| ())
+            }
+            _ => Format::of_path(path).map(|_| ()),
         }
     }
 
@@ -49,7 +51,10 @@ impl ShapeFile {
     pub fn warnings(&self, subject: &Subject) -> Vec<String> {
         match subject {
             Subject::Shape(document) => self.warnings_of(document),
-            Subject::Drawing(_) => Vec::new(),
+            Subject::Drawing(drawing) => match drawing.document() {
+                Some(document) if !is_drawing(self.0.target()) => self.warnings_of(document),
+                _ => Vec::new(),
+            },
         }
     }
 
@@ -77,14 +82,19 @@ impl ShapeFile {
     /// Writes the shape; the file appears with [`commit`].
     pub fn write(mut self, subject: &Subject) -> Result<Output> {
         let path = self.0.target().to_owned();
-        match subject {
-            Subject::Shape(document) => {
-                let format = Format::of_path(&path)?;
-                self.0.write(|w| encode(document, format, w))?;
-            }
-            Subject::Drawing(drawing) => {
+        let mesh = match subject {
+            Subject::Shape(document) => Some(document),
+            // A flat mesh is written as one where that is asked for.
+            Subject::Drawing(drawing) => drawing.document().filter(|_| !is_drawing(&path)),
+        };
+        match (mesh, subject) {
+            (None, Subject::Drawing(drawing)) => {
                 let format = drawing::Format::of_path(&path)?;
                 self.0.write(|w| drawing.encode(format, w))?;
+            }
+            (Some(document), _) | (None, Subject::Shape(document)) => {
+                let format = Format::of_path(&path)?;
+                self.0.write(|w| encode(document, format, w))?;
             }
         }
         Ok(self.0)

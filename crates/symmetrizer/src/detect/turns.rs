@@ -15,8 +15,10 @@ const MIN_COS: f64 = 0.5;
 /// Share of the outline that a turn must hold for, and the rms distance at the most, fraction of L.
 const WHOLE: f64 = 0.95;
 const RMS: f64 = 0.004;
-/// The same beside the rms of turns by half a step more: a round shape has every turn, and so none of its own.
-const TELLING: f64 = 0.35;
+/// The same beside the rms of turns by half a step more, and what that has at the least, fraction of L: a round shape
+/// has every turn, and so none of its own.
+const TELLING: f64 = 0.2;
+const BETWEEN: f64 = 0.006;
 /// Rounds of fitting.
 const ROUNDS: usize = 6;
 
@@ -59,7 +61,8 @@ fn turn(ground: &Ground<'_>, centre: &Point, order: u32) -> Option<Symmetry> {
         .iter()
         .map(|p| p.map_or(0.1, |p| p.residual).powi(2));
     let other = (missed.sum::<f64>() / between.len().max(1) as f64).sqrt();
-    (rms <= RMS && rms <= TELLING * other).then(|| Symmetry {
+    let telling = other >= BETWEEN && rms <= TELLING * other;
+    (rms <= RMS && telling).then(|| Symmetry {
         id: 0,
         class: Class::Proper,
         q_from_p: t,

@@ -124,6 +124,14 @@ impl Drawing {
         })
     }
 
+    /// The mesh of a drawing that came from a flat one.
+    pub fn document(&self) -> Option<&Document> {
+        match &self.kept {
+            Kept::Flat(flat) => Some(flat.document()),
+            _ => None,
+        }
+    }
+
     /// The region, in drawing coordinates.
     pub fn outline(&self) -> &Outline {
         &self.outline
