@@ -387,13 +387,7 @@ impl Symmetrized {
                 symmetries: symmetry::all(&after, &faces),
             })
         })?;
-        let was = self
-            .report
-            .input
-            .shape
-            .asymmetry
-            .as_ref()
-            .map_or(0.0, |a| a.mean);
+        let was = self.report.input.shape.mean_asymmetry();
         if result.asymmetry.mean > 1.05 * was + WORSE {
             ctx.warn(format!(
                 "as a whole the result is less symmetric than the input ({:.3} % of D, was {was:.3}): \

@@ -272,6 +272,13 @@ impl ShapeReport {
     }
 }
 
+impl ShapeReport {
+    /// Mean asymmetry, % of D; 0 where it was not measured.
+    pub fn mean_asymmetry(&self) -> f64 {
+        self.asymmetry.as_ref().map_or(0.0, |a| a.mean)
+    }
+}
+
 impl InputReport {
     /// The report on `mesh` and what was `found` in it.
     pub fn new(

@@ -12,6 +12,8 @@ const ORDERS: std::ops::RangeInclusive<u32> = 2..=60;
 /// cosine.
 const NEAR: f64 = 0.02;
 const MIN_COS: f64 = 0.5;
+/// What is further away counts as so far, fraction of L.
+const FAR: f64 = 0.1;
 /// Share of the outline that a turn must hold for, and the rms distance at the most, fraction of L.
 const WHOLE: f64 = 0.95;
 const RMS: f64 = 0.004;
@@ -32,35 +34,11 @@ pub fn turns(ground: &Ground<'_>) -> Option<Symmetry> {
 
 fn turn(ground: &Ground<'_>, centre: &Point, order: u32) -> Option<Symmetry> {
     let step = std::f64::consts::TAU / f64::from(order);
-    let mut t = about(centre, step);
-    for _ in 0..ROUNDS {
-        let pairs = touched(ground, &t)?;
-        let contacts: Vec<Correspondence> = pairs
-            .iter()
-            .map(|p| Correspondence {
-                p: ground.samples.list[p.sample as usize].position,
-                q: ground.surface.point(&p.partner),
-                weight: 1.0,
-            })
-            .collect();
-        let fitted = optimal_rigid(&contacts, None, Ambient::Plane)?.isometry;
-        // Its fixed point, and the angle that the order has exactly.
-        let linear = nalgebra::Matrix2::identity() - fitted.linear.fixed_view::<2, 2>(0, 0);
-        let fixed = linear.try_inverse()? * fitted.translation.xy();
-        t = about(&Point::new(fixed.x, fixed.y, 0.0), step);
-    }
+    let t = fitted(ground, about(centre, step), step)?;
     let pairs = touched(ground, &t)?;
-    let rms = rms(&pairs);
-    let [x, y] = {
-        let fixed = fixed_point(&t);
-        [fixed.x, fixed.y]
-    };
-    let between = about(&Point::new(x, y, 0.0), 1.5 * step);
-    let between = touch(ground, &between, 0.1, -1.0);
-    let missed = between
-        .iter()
-        .map(|p| p.map_or(0.1, |p| p.residual).powi(2));
-    let other = (missed.sum::<f64>() / between.len().max(1) as f64).sqrt();
+    let rms = rms(pairs.iter().map(|p| p.residual));
+    let between = touch(ground, &about(&fixed_point(&t), 1.5 * step), FAR, -1.0);
+    let other = self::rms(between.iter().map(|p| p.map_or(FAR, |p| p.residual)));
     let telling = other >= BETWEEN && rms <= TELLING * other;
     (rms <= RMS && telling).then(|| Symmetry {
         id: 0,
@@ -77,12 +55,28 @@ fn turn(ground: &Ground<'_>, centre: &Point, order: u32) -> Option<Symmetry> {
     })
 }
 
+/// The turn `t` about the point where it fits best, its angle staying `step`, radians.
+fn fitted(ground: &Ground<'_>, mut t: Isometry, step: f64) -> Option<Isometry> {
+    for _ in 0..ROUNDS {
+        let pairs = touched(ground, &t)?;
+        let contact = |p: &PatchPair| Correspondence {
+            p: ground.samples.list[p.sample as usize].position,
+            q: ground.surface.point(&p.partner),
+            weight: 1.0,
+        };
+        let contacts: Vec<Correspondence> = pairs.iter().map(contact).collect();
+        let free = optimal_rigid(&contacts, None, Ambient::Plane)?.isometry;
+        t = about(&fixed_point(&free), step);
+    }
+    Some(t)
+}
+
 /// The group that a turn of the whole outline makes with the lines of the whole among `symmetries`, exactly: the
 /// turns alone (C) or with as many lines through their centre (D).
 pub fn group(turn: &Symmetry, symmetries: &[Symmetry]) -> Group {
     let centre = fixed_point(&turn.q_from_p);
     let angle = f64::atan2(turn.q_from_p.linear[(1, 0)], turn.q_from_p.linear[(0, 0)]);
-    let order = (std::f64::consts::TAU / angle).round().max(1.0);
+    let order = (std::f64::consts::TAU / angle.abs()).round().max(1.0);
     let step = std::f64::consts::TAU / order;
     let lines: Vec<&Symmetry> = symmetries
         .iter()
@@ -130,9 +124,9 @@ fn touched(ground: &Ground<'_>, t: &Isometry) -> Option<Vec<PatchPair>> {
     (held >= WHOLE).then(|| pairs.into_iter().flatten().collect())
 }
 
-fn rms(pairs: &[PatchPair]) -> f64 {
-    let squares: f64 = pairs.iter().map(|p| p.residual * p.residual).sum();
-    (squares / pairs.len().max(1) as f64).sqrt()
+fn rms(distances: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = distances.len().max(1) as f64;
+    (distances.map(|d| d * d).sum::<f64>() / count).sqrt()
 }
 
 /// The turn about a point of the plane.

@@ -76,13 +76,7 @@ pub(super) fn give_up_on_worse(job: &mut Symmetrized, ctx: &mut Context<'_>) {
     let (Some(wall), Some(result)) = (&job.before.wall, &job.report.result) else {
         return;
     };
-    let before = job
-        .report
-        .input
-        .shape
-        .asymmetry
-        .as_ref()
-        .map_or(0.0, |a| a.mean);
+    let before = job.report.input.shape.mean_asymmetry();
     let worse = result.asymmetry.mean > BETTER * before + FLOOR;
     let crossed = result.distortion.new_crossings as f64 / wall.edges() as f64 > CROSSED;
     if (worse || crossed) && !asked_for(job) {
