@@ -1,5 +1,6 @@
 //! The whole paper: detection, contraction, merging and the figures before and after, in a row.
 
+mod arranged;
 mod bent;
 pub mod kinds;
 mod measured;
@@ -14,12 +15,15 @@ use crate::context::Context;
 use crate::deform::{Igarashi, Stiffness};
 use crate::detect::{DetectParams, Detection, Group, detect, detect_in_plane};
 use crate::error::Result;
+use crate::job::arranged::Arranged;
+use crate::optimize::orbit::orbits;
 use crate::optimize::outcome::mirrors;
 use crate::optimize::schedule::Settings;
 use crate::optimize::{Optimized, Outcome, optimize};
 use crate::params::Params;
 use crate::patch::{Symmetry, carry_ids};
 use crate::report::faces::FaceSamples;
+use crate::report::groups::exact;
 use crate::report::{Head, InputReport, Report, ResultReport, StiffnessReport, symmetry};
 use crate::shape::wall::Wall;
 use crate::shape::working::{Mended, Working};
@@ -131,7 +135,9 @@ pub fn symmetrize_with(
     ctx: &mut Context<'_>,
 ) -> Result<Symmetrized> {
     stiffness.check(mesh)?;
-    let before = mirrors_in(mesh, params, ctx)?;
+    mesh.check()?;
+    params.check()?;
+    let before = find_in(Working::new(mesh)?, mesh, &params.detect(), ctx)?;
     made(mesh, before, stiffness, params, false, ctx)
 }
 
@@ -148,7 +154,7 @@ pub fn unbend(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result<Sym
     made(mesh, before, &Stiffness::default(), &params, true, ctx)
 }
 
-/// The mirrors of a mesh that is to be made symmetric.
+/// The mirrors of a mesh that is to be unbent.
 fn mirrors_in(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result<Detected> {
     mesh.check()?;
     params.check()?;
@@ -156,10 +162,10 @@ fn mirrors_in(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result<Det
     find_in(Working::new(mesh)?, mesh, &detect, ctx)
 }
 
-/// [`symmetrize_with`], or [`unbend`] where `only` that is to be done, of `mesh` whose mirrors were found.
+/// [`symmetrize_with`], or [`unbend`] where `only` that is to be done, of `mesh` whose symmetries were found.
 fn made(
     mesh: &Mesh,
-    before: Detected,
+    mut before: Detected,
     stiffness: &Stiffness,
     params: &Params,
     only: bool,
@@ -171,38 +177,22 @@ fn made(
     };
     let measured = ctx.stage("measure", |ctx| before.asymmetry(&[], ctx))?;
     let stiffness = stiffness.per_face(&before.working);
+    let wall = before.wall.clone();
     let settings = Settings {
-        wall: before.wall.as_ref(),
+        wall: wall.as_ref(),
         stiffness: stiffness.as_deref(),
         region: None,
         detect: &detect,
         deform: &params.deform,
         optimize: &params.optimize,
     };
-    let surface = &before.working.surface;
-    let exact = measured.max <= EXACT && mirrors(&before.detection).next().is_some();
-    let (mut bend, mut bent) = (None, None);
-    let group = plane::group(&before).filter(|_| !only);
-    let done = if let Some(group) = group {
-        plane::orbited(&before, group, settings, ctx)?
-    } else if exact {
-        let outcome = if only {
-            Outcome::NoSymmetry
-        } else {
-            Outcome::Converged
-        };
-        Optimized::unmoved(surface, &before.detection, outcome)
-    } else {
-        let mean = measured.mean / 100.0 * before.diagonal;
-        let looked = bent::unbend(&before, mean, &params.straighten, settings, ctx)?;
-        (bend, bent) = (looked.report, looked.bent);
-        match looked.done {
-            Some(done) => done,
-            None if only || !plane::mirrored(&before) => {
-                Optimized::unmoved(surface, &before.detection, Outcome::NoSymmetry)
-            }
-            None => optimize(surface, &before.detection, settings, ctx)?,
+    let mean = measured.mean / 100.0 * before.diagonal;
+    let exact = measured.max <= EXACT || measured.rms <= ROUNDED && measured.max <= STRAY;
+    let Arranged { done, bend, bent } = match (before.wall.is_some(), only) {
+        (false, false) => {
+            arranged::symmetrized(&mut before, (mean, exact), &params.straighten, settings, ctx)?
         }
+        _ => mirrored(&before, (mean, exact), (params, only), settings, ctx)?,
     };
     let faces = FaceSamples::of(&before);
     let asymmetry = AsymmetryReport::new(&measured, &before.working.normalization);
@@ -227,11 +217,60 @@ fn made(
         report,
     };
     if done.outcome != Outcome::NoSymmetry {
-        job.conclude(done, &detect, ctx)?;
+        let again = match done.goals.is_empty() {
+            true => detect,
+            false => sought_again(params, &detect, &job.before),
+        };
+        job.conclude(done, &again, ctx)?;
         plane::give_up_on_worse(&mut job, ctx);
     }
     job.report.warnings = ctx.warnings().to_vec();
     Ok(job)
+}
+
+/// What is looked for in the result of orbits: all that was in the input.
+fn sought_again(params: &Params, detect: &DetectParams, before: &Detected) -> DetectParams {
+    match before.wall {
+        Some(_) => detect.clone(),
+        None => params.detect(),
+    }
+}
+
+/// A drawing with its group or its one line made exact, straight or bent; or a shape of which `only` the bend is to be
+/// undone. Its asymmetry is that `mean` (fraction of L), or it is `exact`.
+fn mirrored(
+    before: &Detected,
+    (mean, exact): (f64, bool),
+    (params, only): (&Params, bool),
+    settings: Settings<'_>,
+    ctx: &mut Context<'_>,
+) -> Result<Arranged> {
+    let surface = &before.working.surface;
+    if let Some(goal) = plane::group(before, settings).filter(|_| !only) {
+        let done = ctx.stage("orbits", |ctx| {
+            orbits(surface, &before.detection, &[goal], settings, ctx)
+        })?;
+        return Ok(Arranged::plain(done));
+    }
+    let unmoved = |outcome| Optimized::unmoved(surface, &before.detection, outcome);
+    if exact && mirrors(&before.detection).next().is_some() {
+        let outcome = match only {
+            true => Outcome::NoSymmetry,
+            false => Outcome::Converged,
+        };
+        return Ok(Arranged::plain(unmoved(outcome)));
+    }
+    let looked = bent::unbend(before, mean, &params.straighten, settings, ctx)?;
+    let done = match looked.done {
+        Some(done) => done,
+        None if only || !plane::mirrored(before) => unmoved(Outcome::NoSymmetry),
+        None => optimize(surface, &before.detection, settings, ctx)?,
+    };
+    Ok(Arranged {
+        done,
+        bend: looked.report,
+        bent: looked.bent,
+    })
 }
 
 /// Says what the stages do not see as the document has it.
@@ -276,6 +315,10 @@ fn compared(before: &Detected, after: &Detected) -> Result<Distortion> {
 /// A shape whose mirrored surface lies nowhere further than this from it, % of D, is symmetric to the
 /// rounding of single-precision coordinates: not a bit of it is changed.
 const EXACT: f64 = 2e-5;
+
+/// The same of coordinates with six digits, as text has them: rms distance, and that of single vertices, % of D.
+const ROUNDED: f64 = 1e-4;
+const STRAY: f64 = 5e-3;
 
 /// Mean asymmetry, % of D, that may come and go with the triangulation.
 const WORSE: f64 = 0.01;
@@ -354,6 +397,7 @@ impl Symmetrized {
         ctx: &mut Context<'_>,
     ) -> Result<()> {
         let before = &self.before;
+        let of_one_mirror = done.goals.is_empty();
         self.shape = before.working.moved_document(&self.shape, &done.positions);
         let working = Working {
             surface: before.working.surface.with_positions(done.positions),
@@ -384,11 +428,12 @@ impl Symmetrized {
                 asymmetry: AsymmetryReport::new(&measured, &after.working.normalization),
                 distortion: compared(before, &after)?,
                 energy: done.energy,
+                exact: exact(&after, &done.goals),
                 symmetries: symmetry::all(&after, &faces),
             })
         })?;
         let was = self.report.input.shape.mean_asymmetry();
-        if result.asymmetry.mean > 1.05 * was + WORSE {
+        if of_one_mirror && result.asymmetry.mean > 1.05 * was + WORSE {
             ctx.warn(format!(
                 "as a whole the result is less symmetric than the input ({:.3} % of D, was {was:.3}): \
                  a part was made symmetric at the cost of the rest",

@@ -43,7 +43,7 @@ pub struct Params {
 
 /// What each parameter may be. The limits keep work and memory finite and formulas defined; within
 /// them not every value is wise.
-const RANGES: [(&str, f64, f64); 42] = [
+const RANGES: [(&str, f64, f64); 45] = [
     ("sample.count", 100.0, 20_000.0),
     ("sample.outline", 100.0, 2_000.0),
     ("pair.tolerance", 1e-6, 100.0),
@@ -85,6 +85,9 @@ const RANGES: [(&str, f64, f64); 42] = [
     ("optimize.finish_rounds", 0.0, 1000.0),
     ("optimize.finish_lengths", 1e-4, 1.0),
     ("optimize.finish_asymmetry", 0.0, 1.0),
+    ("optimize.orbit_rounds", 0.0, 1000.0),
+    ("optimize.only", 0.0, 1e9),
+    ("optimize.max_symmetries", 1.0, 1e6),
     ("optimize.max_deformation", 0.0, f64::MAX),
 ];
 
@@ -328,6 +331,8 @@ mod tests {
         let params = Params {
             optimize: OptimizeParams {
                 max_deformation: Some(0.1),
+                only: Some(vec![0, 3]),
+                max_symmetries: Some(2),
                 ..OptimizeParams::default()
             },
             ..Params::default()

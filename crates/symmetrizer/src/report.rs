@@ -26,7 +26,7 @@ use crate::shape::working::Working;
 use crate::shape::{Mesh, Validation};
 
 pub use bend::{BendReport, KeptReport};
-pub use groups::{ContinuousReport, GroupReport};
+pub use groups::{ContinuousReport, ExactReport, GroupReport};
 pub use refusals::{RefusalReport, RefusedCount};
 pub use symmetry::SymmetryReport;
 pub use validate::ValidateReport;
@@ -188,6 +188,8 @@ pub struct ResultReport {
     pub distortion: Distortion,
     /// Deformation energy, about the mean square strain.
     pub energy: f64,
+    /// Groups, rows, copies and single symmetries that were made exact beside the mirror of the whole, as they are.
+    pub exact: Vec<ExactReport>,
     /// The symmetries found, those of the input under their ids.
     pub symmetries: Vec<SymmetryReport>,
 }

@@ -36,7 +36,7 @@ impl Figures {
         let result = report.result.as_ref();
         let asymmetry = report.input.shape.asymmetry.as_ref();
         let group = report.steps.iter().find_map(|step| match step {
-            Step::Orbits { group, .. } => Some(group.clone()),
+            Step::Orbits { goals, .. } => goals.first().map(|g| g.name.clone()),
             _ => None,
         });
         let verdict = match (bend, result) {

@@ -14,14 +14,15 @@ use symmetrizer::{
 use crate::Answer;
 use crate::files::{PictureFile, ReportFile, ShapeFile, check_distinct, commit};
 use crate::input::{self, Bitmaps, Input, Subject};
-use crate::options::{Bends, Desk, Tuning};
+use crate::options::{Bends, Desk, Sought, Tuning};
 use crate::summary;
 
 /// Make a shape symmetric
 ///
-/// Finds the mirror symmetries of the whole shape and of its parts, then deforms the shape, as little
-/// as possible, until one mirror holds for all of it. The result has the input's vertices and faces
-/// in the same order.
+/// Finds the symmetries of the whole shape and of its parts, then deforms the shape, as little as
+/// possible, until they are exact: one mirror for all of it, straight or about a bent axis; groups, rows,
+/// repeated elements and surfaces of revolution; symmetries of parts where they hold. The result has the
+/// input's vertices and faces in the same order.
 #[derive(Args)]
 pub struct RunArgs {
     #[arg(help = input::HELP)]
@@ -45,6 +46,15 @@ pub struct RunArgs {
     /// face, or JSON {"per": "vertex", "values": [..]} (or "face")
     #[arg(long, value_name = "NUMBER|FILE")]
     stiffness: Option<String>,
+    #[command(flatten)]
+    sought: Sought,
+    /// Make only these symmetries exact, with the groups they belong to: ids as `detect` lists them
+    #[arg(long, value_name = "IDS", value_delimiter = ',')]
+    only: Vec<u32>,
+    /// Make no more than so many symmetries (groups, rows, sets of copies, single ones) exact, those of most
+    /// of the surface first
+    #[arg(long, value_name = "N")]
+    max_symmetries: Option<usize>,
     #[command(flatten)]
     bends: Bends,
     /// Where no symmetry is found, write the input unchanged
@@ -172,7 +182,14 @@ fn is_drawn(shape: bool, job: &Symmetrized) -> bool {
 impl RunArgs {
     fn params(&self) -> Result<Params> {
         let mut params = self.tuning.resolve()?;
+        self.sought.narrow(&mut params)?;
         self.bends.set(&mut params)?;
+        if !self.only.is_empty() {
+            params.optimize.only = Some(self.only.clone());
+        }
+        if let Some(count) = self.max_symmetries {
+            params.set("optimize.max_symmetries", &count.to_string())?;
+        }
         if let Some(energy) = self.max_deformation {
             params.set("optimize.max_deformation", &energy.to_string())?;
         }

@@ -1,6 +1,7 @@
 //! Results in words and tables for people.
 
 mod found;
+mod orbits;
 mod refused;
 mod together;
 
@@ -53,7 +54,10 @@ pub fn run(report: &Report, picture: Option<&Path>) -> String {
         ("before", report.input.shape.asymmetry.as_ref()),
         ("after", Some(&result.asymmetry)),
     ];
-    text += &asymmetry(&states);
+    // About one mirror; what was made exact otherwise has its figures above.
+    if result.exact.is_empty() {
+        text += &asymmetry(&states);
+    }
     text += &distortion(&result.distortion);
     text += &bend;
     let _ = writeln!(text, "energy       {:.2e}", result.energy);
@@ -171,16 +175,11 @@ fn done(step: &Step) -> String {
         ),
         Step::ContractWhole { steps, .. } => format!("contracted the whole in {steps} steps"),
         Step::Orbits {
-            group,
-            order,
+            goals,
+            steps,
             rounds,
-            residual,
-        } => format!(
-            "moved the orbits of {group} (order {order}) to their means in {rounds} rounds: copies {:.3} -> {:.4} % \
-             of L from the outline",
-            100.0 * residual[0],
-            100.0 * residual[1]
-        ),
+            ..
+        } => orbits::done(goals, *steps, *rounds),
         Step::Finish {
             rounds,
             asymmetry,

@@ -1,6 +1,7 @@
 //! Symmetries that belong together.
 
 use crate::geom::{Point, Vector};
+use crate::group::Pattern;
 use crate::transform::Isometry;
 
 /// A group of symmetries, a row or grid of copies, or copies of one element anywhere.
@@ -16,6 +17,8 @@ pub struct Group {
     pub point: Point,
     /// The step from one copy to the next of a row.
     pub step: Option<Isometry>,
+    /// How the copies of a row or grid follow each other.
+    pub pattern: Option<Pattern>,
     /// All elements of the exact group, or the motions from the first copy to each.
     pub elements: Vec<Isometry>,
     /// Ids of the symmetries that belong to it.

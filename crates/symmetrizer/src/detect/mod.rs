@@ -64,11 +64,13 @@ impl Default for DetectParams {
 }
 
 impl DetectParams {
-    /// The same for what is made exact: mirrors alone, with patches as far as the tolerance, because what
+    /// The same for what is made exact: mirrors alone, if they are wanted, with patches as far as the tolerance, because what
     /// nearly is symmetric is to become so.
     pub fn mirrors_only(self) -> Self {
+        let mut wanted = Wanted::mirrors();
+        wanted.kinds.retain(|want| self.wanted.kinds.contains(want));
         Self {
-            wanted: Wanted::mirrors(),
+            wanted,
             slip: None,
             patch: PatchParams {
                 end: f64::MAX,

@@ -107,6 +107,7 @@ pub fn group(turn: &Symmetry, symmetries: &[Symmetry]) -> Group {
         axis: Some(Vector::z()),
         point: centre,
         step: None,
+        pattern: None,
         elements,
         symmetries: members,
         orbit: Vec::new(),

@@ -4,6 +4,7 @@ use nalgebra::{Matrix2, Matrix2x3};
 
 use crate::geom::Vector;
 use crate::group::row::{Row, row};
+use crate::group::step::powers_of;
 use crate::group::{Verify, Within};
 use crate::transform::{Isometry, Kind};
 
@@ -67,6 +68,26 @@ pub fn patterns(
 }
 
 impl Pattern {
+    /// The step of a row, the two of a grid.
+    pub fn steps(&self) -> Vec<Isometry> {
+        match self {
+            Self::Row(row) => vec![row.step],
+            Self::Grid(grid) => grid.steps.to_vec(),
+        }
+    }
+
+    /// The motions from the first copy to each, those along the first step of a grid following each other.
+    pub fn elements(&self) -> Vec<Isometry> {
+        match self {
+            Self::Row(row) => powers_of(&row.step, row.count),
+            Self::Grid(Grid { steps, counts }) => {
+                let [a, b] = [0, 1].map(|i| powers_of(&steps[i], counts[i]));
+                let along = |y: &Isometry| a.iter().map(|x| y.after(x)).collect::<Vec<_>>();
+                b.iter().flat_map(along).collect()
+            }
+        }
+    }
+
     fn explains(&self, t: &Isometry, within: Within<'_>) -> bool {
         match self {
             Self::Row(row) => row.explains(t, within),

@@ -3,15 +3,16 @@
 use crate::apply::measure::asymmetry_of_outline;
 use crate::context::Context;
 use crate::deform::{Igarashi, Stiffness, carry};
-use crate::detect::{DetectParams, Group, Want, Wanted};
+use crate::detect::{DetectParams, Want, Wanted};
 use crate::drawing::{Drawing, Outline};
 use crate::error::{Error, Result};
 use crate::geom::{Matrix3, Point, Vector};
 use crate::job::{Detected, Measured, Symmetrized, made};
-use crate::optimize::orbits::orbits;
+use crate::optimize::orbit::Goal;
 use crate::optimize::outcome::mirrors;
-use crate::optimize::schedule::{Settings, prepared};
-use crate::optimize::{Optimized, Outcome, Step};
+use crate::optimize::plan::goals;
+use crate::optimize::schedule::Settings;
+use crate::optimize::{Outcome, Step};
 use crate::params::Params;
 use crate::shape::wall::Wall;
 use crate::shape::working::{Normalization, Working};
@@ -35,7 +36,8 @@ impl Drawn {
     /// [`Error::Input`] where no line was found, or the symmetry is one of turns alone.
     pub fn exact(&self) -> Result<Drawing> {
         let line = self.job.after.as_ref().filter(|after| {
-            let group = group(after);
+            let turn = after.symmetries().iter().find(|s| s.class == Class::Proper);
+            let group = turn.and_then(|turn| after.group_of(turn.id));
             group.is_none_or(|g| g.name.starts_with('D'))
         });
         let Some(after) = line else {
@@ -126,39 +128,14 @@ pub(super) fn sought(params: &Params) -> DetectParams {
 }
 
 /// The group of a drawing that has turns, one with more than them where it has lines, too.
-pub(super) fn group(found: &Detected) -> Option<&Group> {
+pub(super) fn group(found: &Detected, settings: Settings<'_>) -> Option<Goal> {
     found.wall.as_ref()?;
     let turn = found
         .symmetries()
         .iter()
         .find(|s| s.class == Class::Proper)?;
-    found.group_of(turn.id)
-}
-
-/// The orbits of a drawing under `group` moved to their means.
-pub(super) fn orbited(
-    before: &Detected,
-    group: &Group,
-    settings: Settings<'_>,
-    ctx: &mut Context<'_>,
-) -> Result<Optimized> {
-    let surface = &before.working.surface;
-    let done = ctx.stage("orbits", |ctx| {
-        orbits(surface, &group.elements, settings.stiffness, ctx)
-    })?;
-    let unmoved = Optimized::unmoved(surface, &before.detection, Outcome::Converged);
-    let body = prepared(surface, settings)?;
-    Ok(Optimized {
-        energy: body.energy_at(&done.positions),
-        steps: vec![Step::Orbits {
-            group: group.name.clone(),
-            order: group.order,
-            rounds: done.rounds,
-            residual: done.residual,
-        }],
-        positions: done.positions,
-        ..unmoved
-    })
+    let goals = goals(&found.detection, settings.optimize);
+    goals.into_iter().find(|g| g.symmetries.contains(&turn.id))
 }
 
 /// Finds the symmetries of a drawing's outline.

@@ -1,18 +1,20 @@
 //! Section 4: samples glide, clusters contract, clusters merge, the rest follows.
 
 mod aim;
+mod contact;
 pub mod contract;
 pub mod finish;
 pub mod glide;
 pub mod merge;
 pub mod moving;
-pub mod orbits;
+pub mod orbit;
 pub mod outcome;
 pub mod params;
+pub mod plan;
 mod rounds;
 pub mod schedule;
 pub mod untangle;
 
-pub use outcome::{Optimized, Outcome, Step};
+pub use outcome::{Met, Optimized, Outcome, Step};
 pub use params::OptimizeParams;
 pub use schedule::{complete, optimize};

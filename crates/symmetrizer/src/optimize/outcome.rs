@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::detect::Detection;
 use crate::geom::Point;
+use crate::optimize::orbit::Goal;
 use crate::patch::Symmetry;
 use crate::shape::Surface;
 use crate::transform::{Class, Plane};
@@ -78,16 +79,18 @@ pub enum Step {
         /// Deformation energy after it.
         energy: f64,
     },
-    /// All orbits of a group were moved to their means.
+    /// The orbits of groups, rows, copies, slides and single symmetries were moved to their means, all together.
     Orbits {
-        /// Its name.
-        group: String,
-        /// The number of its elements.
-        order: usize,
-        /// Rounds.
+        /// What became of each, those of most of the surface first.
+        goals: Vec<Met>,
+        /// Deformation steps.
+        steps: usize,
+        /// Rounds at full resolution.
         rounds: usize,
-        /// Mean distance of the copies of the surface from it before and after, fraction of L.
-        residual: [f64; 2],
+        /// rms displacement over the surface that equation 1 asks for, fraction of L.
+        predicted: f64,
+        /// Deformation energy after it.
+        energy: f64,
     },
     /// The finish at full resolution.
     Finish {
@@ -98,6 +101,48 @@ pub enum Step {
         /// Share of the area where it was undone because the surface would have crossed itself.
         undone: f64,
     },
+}
+
+/// What became of symmetries that were to be made exact together.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Met {
+    /// What they are called: the group, `row 5`, `6 copies`, `revolution`, `symmetry 3`.
+    pub name: String,
+    /// Their ids.
+    pub symmetries: Vec<u32>,
+    /// The number of copies in an orbit; none where it has any number.
+    pub order: Option<usize>,
+    /// Their ground as a share of the surface's area.
+    pub area_fraction: f64,
+    /// rms distance of the copies from the surface before and after, fraction of L.
+    pub residual: [f64; 2],
+    /// The share of the copies, by area, that there is a place for.
+    pub held: f64,
+    /// False where it was left: others, which hold for more, exclude it, or most places find no copy.
+    pub kept: bool,
+}
+
+impl Met {
+    /// A goal that was pursued.
+    pub fn new(goal: &Goal, residual: [f64; 2], held: f64) -> Self {
+        Self {
+            name: goal.name.clone(),
+            symmetries: goal.symmetries.clone(),
+            order: goal.order(),
+            area_fraction: goal.area_fraction,
+            residual,
+            held,
+            kept: true,
+        }
+    }
+
+    /// One that was left.
+    pub fn left(goal: &Goal, residual: [f64; 2], held: f64) -> Self {
+        Self {
+            kept: false,
+            ..Self::new(goal, residual, held)
+        }
+    }
 }
 
 /// The optimized surface and how it came about.
@@ -114,6 +159,8 @@ pub struct Optimized {
     pub energy: f64,
     /// The first id that no symmetry of the run had.
     pub next_id: u32,
+    /// What was made exact by orbits, its motions as they are exact, working coordinates.
+    pub goals: Vec<Goal>,
 }
 
 impl Optimized {
@@ -126,6 +173,7 @@ impl Optimized {
             steps: Vec::new(),
             energy: 0.0,
             next_id: next_id(detection),
+            goals: Vec::new(),
         }
     }
 }

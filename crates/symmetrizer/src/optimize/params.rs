@@ -35,6 +35,13 @@ pub struct OptimizeParams {
     /// The finish stops at this mean asymmetry, fraction of L, if it is also a twelfth of the input's;
     /// going on would rub out detail. 0.0007, ours: the bunny then has 0.07 % of D.
     pub finish_asymmetry: f64,
+    /// Rounds in which orbits are drawn to their means at full resolution at the most. 24, ours.
+    pub orbit_rounds: usize,
+    /// Ids of the symmetries that are made exact, with the groups they belong to; all by default.
+    pub only: Option<Vec<u32>>,
+    /// How many goals (groups, rows, sets of copies, single symmetries) are made exact, those of most of the surface
+    /// first; all by default.
+    pub max_symmetries: Option<usize>,
     /// Stop when the deformation energy (about the mean square strain) exceeds this; none by
     /// default.
     pub max_deformation: Option<f64>,
@@ -54,6 +61,9 @@ impl Default for OptimizeParams {
             finish_rounds: 16,
             finish_lengths: [0.04, 0.002],
             finish_asymmetry: 0.0007,
+            orbit_rounds: 24,
+            only: None,
+            max_symmetries: None,
             max_deformation: None,
         }
     }

@@ -170,7 +170,7 @@ pub fn prepared(surface: &Surface, settings: Settings<'_>) -> Result<Box<dyn Def
 }
 
 /// The samples of a detection on a `surface` that a deformer moves.
-fn moving<'a>(
+pub fn moving<'a>(
     surface: &Surface,
     detection: &Detection,
     settings: Settings<'_>,
@@ -247,6 +247,7 @@ impl Schedule<'_> {
             steps: self.steps,
             energy: self.moving.deformer.energy(),
             next_id: self.next_id,
+            goals: Vec::new(),
         })
     }
 

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::detect::Group;
 use crate::job::Detected;
+use crate::optimize::orbit::{Goal, Orbit};
 use crate::report::faces::FaceSamples;
 use crate::report::place::{Matrix, Place};
 use crate::slip::{Continuous, Slip};
@@ -53,6 +54,36 @@ pub struct ContinuousReport {
     pub rms_deg: f64,
     /// Triangles of the part.
     pub faces: Vec<u32>,
+}
+
+/// Symmetries that were made exact together, in document coordinates.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ExactReport {
+    /// As in the step that did it.
+    pub name: String,
+    /// Ids of its symmetries.
+    pub symmetries: Vec<u32>,
+    /// All elements of a group but the identity, or the motions from the first copy to each; products of a group's
+    /// elements are elements to rounding. None for slides, which have any number.
+    pub elements: Vec<Matrix>,
+    /// The unit axis of a slide, and a point of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axis: Option<[[f64; 3]; 2]>,
+}
+
+/// The `goals` that were met on a shape that is now as `found`.
+pub fn exact(found: &Detected, goals: &[Goal]) -> Vec<ExactReport> {
+    let place = Place(&found.working);
+    let report = |goal: &Goal| ExactReport {
+        name: goal.name.clone(),
+        symmetries: goal.symmetries.clone(),
+        elements: goal.elements().iter().map(|t| place.matrix(t)).collect(),
+        axis: match &goal.orbit {
+            Orbit::Slide(slide, _) => slide.axis.map(|axis| [axis.into(), place.point(&slide.point)]),
+            _ => None,
+        },
+    };
+    goals.iter().map(report).collect()
 }
 
 /// All groups that were `found`.

@@ -37,6 +37,20 @@ pub enum Slip {
     Plane,
 }
 
+impl Slip {
+    /// The name, as reports have it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Revolution => "revolution",
+            Self::Extrusion => "extrusion",
+            Self::Helix => "helix",
+            Self::Cylinder => "cylinder",
+            Self::Sphere => "sphere",
+            Self::Plane => "plane",
+        }
+    }
+}
+
 /// A continuous symmetry of a part of a surface, working coordinates.
 #[derive(Debug, Clone)]
 pub struct Continuous {

@@ -104,6 +104,7 @@ fn copies_of(
         axis: None,
         point: Point::origin(),
         step: None,
+        pattern: None,
         elements: members.values().map(along).collect(),
         symmetries: links
             .iter()

@@ -96,6 +96,7 @@ fn groups_on(
             axis: group.axis,
             point: group.centre,
             step: None,
+            pattern: None,
             elements: group.elements,
             symmetries: members.iter().map(|&k| symmetries[k].id).collect(),
             orbit: Vec::new(),

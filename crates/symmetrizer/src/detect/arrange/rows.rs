@@ -4,7 +4,7 @@ use crate::detect::arrange::{MIN_ORDER, TOLERANCE, is_closed};
 use crate::detect::groups::Group;
 use crate::detect::surroundings::Surroundings;
 use crate::geom::{Point, PointIndex, Vector};
-use crate::group::{Pattern, Within, patterns};
+use crate::group::{Within, patterns};
 use crate::patch::Symmetry;
 use crate::transform::Isometry;
 
@@ -34,7 +34,8 @@ pub fn rows(
     };
     let mut groups = Vec::new();
     for pattern in patterns(&generators, within, &mut known) {
-        let (steps, elements, order) = powers(&pattern);
+        let (steps, elements) = (pattern.steps(), pattern.elements());
+        let order = elements.len();
         if order < MIN_ORDER {
             continue;
         }
@@ -63,32 +64,10 @@ pub fn rows(
                 .collect(),
             elements,
             symmetries: members.iter().map(|&k| symmetries[k].id).collect(),
+            pattern: Some(pattern),
         });
     }
     groups
-}
-
-/// The steps of a pattern, the motions from its first copy to each, and the number of copies.
-fn powers(pattern: &Pattern) -> (Vec<Isometry>, Vec<Isometry>, usize) {
-    let powers = |t: &Isometry, n: usize| {
-        let mut all = vec![Isometry::identity()];
-        for k in 1..n {
-            all.push(t.after(&all[k - 1]));
-        }
-        all
-    };
-    match pattern {
-        Pattern::Row(row) => (vec![row.step], powers(&row.step, row.count), row.count),
-        Pattern::Grid(grid) => {
-            let [a, b] = [0, 1].map(|i| powers(&grid.steps[i], grid.counts[i]));
-            let all = b.iter().flat_map(|y| a.iter().map(move |x| y.after(x)));
-            (
-                grid.steps.to_vec(),
-                all.collect(),
-                grid.counts[0] * grid.counts[1],
-            )
-        }
-    }
 }
 
 /// The samples of a row's first copy: those that the step carries on and nothing is carried to.

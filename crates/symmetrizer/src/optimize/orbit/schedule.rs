@@ -1,0 +1,173 @@
+//! The schedule over orbits (section 4.2): what is far from its copies is contracted, then all is drawn to the means
+//! at full resolution; goals that others exclude are given up, those of less of the surface first.
+
+use crate::context::Context;
+use crate::detect::Detection;
+use crate::error::Result;
+use crate::optimize::orbit::contract::contract;
+use crate::optimize::orbit::goal::Goal;
+use crate::optimize::orbit::rounds::{Drawn, Fitted, Limit, draw};
+use crate::optimize::outcome::{Met, Optimized, Outcome, Step, next_id};
+use crate::optimize::schedule::{Settings, moving, prepared};
+use crate::shape::Surface;
+
+/// Copies that lie further from the surface than this (rms, fraction of L) are contracted first: the finish at full
+/// resolution moves the surface along its normals only.
+const ROUGH: f64 = 0.003;
+/// A goal is not met that leaves more than this share of its residual, and more than this of L.
+const UNMET: f64 = 0.4;
+const FLOOR: f64 = 7e-4;
+/// A goal is met from the start where equation 1 moves its places by less than this share of the distances that are
+/// measured, or than this, fraction of L: the rest is the flat faces of a curved surface and what nobody sees.
+const FLAT: f64 = 0.3;
+const EXACT: f64 = 5e-5;
+/// Goals that find fewer of their copies than this share are let be: short extrusions, of which a shift leaves little,
+/// and what only begins to come again.
+const HELD: f64 = 0.5;
+/// Goals share ground where this share of the smaller one's samples is in both.
+const SHARED: f64 = 0.2;
+
+/// Makes `goals` exact on `surface`, where `detection` found them; those of most of the surface come first.
+///
+/// # Errors
+/// [`crate::Error::Params`], [`crate::Error::Numerical`], [`crate::Error::Cancelled`].
+pub fn orbits(
+    surface: &Surface,
+    detection: &Detection,
+    goals: &[Goal],
+    settings: Settings<'_>,
+    ctx: &mut Context<'_>,
+) -> Result<Optimized> {
+    settings.optimize.check()?;
+    let mut wanted: Vec<Goal> = goals.to_vec();
+    let mut left = Vec::new();
+    loop {
+        let made = made(surface, detection, &wanted, settings, ctx)?;
+        match excluded(&wanted, &made) {
+            Some((loser, winner)) if made.outcome == Outcome::Converged => {
+                let goal = wanted.remove(loser);
+                ctx.warn(format!(
+                    "{} cannot be made exact together with {winner}, which holds for more of the shape: it is left",
+                    goal.name
+                ));
+                let residual = made.before.rms[loser];
+                left.push(Met::left(&goal, [residual; 2], made.before.held[loser]));
+            }
+            _ => return Ok(made.finished(surface, detection, left)),
+        }
+    }
+}
+
+/// What became of the goals.
+struct Made {
+    drawn: Drawn,
+    before: Fitted,
+    steps: usize,
+    energy: f64,
+    outcome: Outcome,
+}
+
+fn made(
+    surface: &Surface,
+    detection: &Detection,
+    goals: &[Goal],
+    settings: Settings<'_>,
+    ctx: &mut Context<'_>,
+) -> Result<Made> {
+    let most = settings.optimize.max_deformation;
+    let samples = &detection.samples;
+    let mut before = ctx.stage("fit", |_| Fitted::of(surface, samples, goals))?;
+    for (k, goal) in before.goals.iter_mut().enumerate() {
+        let exact = before.halves[k] < (FLAT * before.rms[k]).max(EXACT);
+        goal.is_met = exact || before.held[k] < HELD;
+    }
+    let open = || (0..goals.len()).filter(|&k| !before.goals[k].is_met);
+    let mut body = ctx.stage("prepare", |_| prepared(surface, settings))?;
+    let steps = match open().any(|k| before.rms[k] > ROUGH) {
+        true => settings.optimize.contract_steps,
+        false => 0,
+    };
+    let mut moving = moving(surface, detection, settings, body.as_mut());
+    let contracted = ctx.stage("contract", |ctx| {
+        contract(&mut moving, &before.goals, steps, most, ctx)
+    })?;
+    let now = match contracted.steps {
+        0 => surface.clone(),
+        _ => surface.with_positions(body.positions()),
+    };
+    let limit = Limit {
+        body: body.as_ref(),
+        most,
+    };
+    let drawn = ctx.stage("finish", |ctx| {
+        let rounds = match contracted.limited {
+            true => 0,
+            false if open().next().is_none() => 0,
+            false => settings.optimize.orbit_rounds,
+        };
+        draw(&now, samples, &contracted.goals, rounds, settings.stiffness, &limit, ctx)
+    })?;
+    let limited = contracted.limited || drawn.limited;
+    Ok(Made {
+        energy: body.energy_at(&drawn.positions),
+        before,
+        steps: contracted.steps,
+        outcome: if limited {
+            Outcome::EnergyLimit
+        } else {
+            Outcome::Converged
+        },
+        drawn,
+    })
+}
+
+/// A goal that is not met, and the name of one that was wanted more and lies on the same ground.
+fn excluded(goals: &[Goal], made: &Made) -> Option<(usize, String)> {
+    (0..goals.len()).rev().find_map(|k| {
+        let after = made.drawn.rms[k];
+        if made.before.goals[k].is_met || after <= (UNMET * made.before.rms[k]).max(FLOOR) {
+            return None;
+        }
+        let winner = goals[..k].iter().find(|g| shared(g, &goals[k]) >= SHARED)?;
+        Some((k, winner.name.clone()))
+    })
+}
+
+/// The share of the smaller goal's samples that are in both.
+fn shared(a: &Goal, b: &Goal) -> f64 {
+    let samples = |g: &Goal| {
+        let all = g.places.iter().flatten().copied();
+        all.collect::<std::collections::BTreeSet<u32>>()
+    };
+    let (a, b) = (samples(a), samples(b));
+    a.intersection(&b).count() as f64 / a.len().min(b.len()).max(1) as f64
+}
+
+impl Made {
+    fn finished(self, surface: &Surface, detection: &Detection, left: Vec<Met>) -> Optimized {
+        let drawn = self.drawn;
+        let met = drawn.goals.iter().enumerate().map(|(k, goal)| {
+            let (residual, held) = ([self.before.rms[k], drawn.rms[k]], self.before.held[k]);
+            match held < HELD {
+                true => Met::left(goal, residual, held),
+                false => Met::new(goal, residual, held),
+            }
+        });
+        let step = Step::Orbits {
+            goals: met.chain(left).collect(),
+            steps: self.steps,
+            rounds: drawn.rounds,
+            predicted: self.before.predicted,
+            energy: self.energy,
+        };
+        Optimized {
+            positions: drawn.positions,
+            outcome: self.outcome,
+            steps: vec![step],
+            energy: self.energy,
+            next_id: next_id(detection),
+            goals: drawn.goals,
+            ..Optimized::unmoved(surface, detection, self.outcome)
+        }
+    }
+}
