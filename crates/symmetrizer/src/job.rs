@@ -16,7 +16,7 @@ use crate::detect::{DetectParams, Detection, Group, detect, detect_in_plane};
 use crate::error::Result;
 use crate::optimize::outcome::mirrors;
 use crate::optimize::schedule::Settings;
-use crate::optimize::{Optimized, Outcome, optimize};
+use crate::optimize::{Optimized, Outcome, Step, mend, optimize};
 use crate::params::Params;
 use crate::patch::{Symmetry, carry_ids};
 use crate::report::faces::FaceSamples;
@@ -204,6 +204,7 @@ fn made(
             None => optimize(surface, &before.detection, settings, ctx)?,
         }
     };
+    let done = mended(&before, done, ctx)?;
     let faces = FaceSamples::of(&before);
     let asymmetry = AsymmetryReport::new(&measured, &before.working.normalization);
     let report = Report {
@@ -232,6 +233,23 @@ fn made(
     }
     job.report.warnings = ctx.warnings().to_vec();
     Ok(job)
+}
+
+/// What was `done`, where it is tangled with the form of the input.
+fn mended(before: &Detected, mut done: Optimized, ctx: &mut Context<'_>) -> Result<Optimized> {
+    if before.wall.is_some() || done.steps.is_empty() {
+        return Ok(done);
+    }
+    let rest = &before.working.surface;
+    let after = rest.with_positions(std::mem::take(&mut done.positions));
+    let mended = ctx.stage("mend", |_| mend(rest, after))?;
+    if mended.share > 0.0 {
+        done.steps.push(Step::Mend {
+            share: mended.share,
+        });
+    }
+    done.positions = mended.surface.positions;
+    Ok(done)
 }
 
 /// Says what the stages do not see as the document has it.

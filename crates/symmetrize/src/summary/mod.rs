@@ -181,6 +181,9 @@ fn done(step: &Step) -> String {
             100.0 * residual[0],
             100.0 * residual[1]
         ),
+        Step::Mend { share } => {
+            format!("mend         {:.1} % of the area has its own form again", 100.0 * share)
+        }
         Step::Finish {
             rounds,
             asymmetry,

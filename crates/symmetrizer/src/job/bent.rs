@@ -9,7 +9,7 @@ use crate::field::trust::Verdict;
 use crate::job::{Detected, plane};
 use crate::optimize::outcome::mirrors;
 use crate::optimize::schedule::{Settings, prepared};
-use crate::optimize::{Optimized, Step, complete};
+use crate::optimize::{Optimized, Step, complete, mend};
 use crate::report::{BendReport, KeptReport};
 use crate::shape::ClosestPoint;
 use crate::straighten::{Bend, StraightenParams, Straightened, When, bend_again, straighten};
@@ -107,7 +107,12 @@ fn undone(
     ctx: &mut Context<'_>,
 ) -> Result<Option<Undone>> {
     let surface = land.surface;
-    let straight = ctx.stage("straighten", |_| straighten(land, bend))?;
+    let mut straight = ctx.stage("straighten", |_| straighten(land, bend))?;
+    if land.wall.is_none() {
+        // Fingers that are pressed together would only be drawn on.
+        let tangled = surface.with_positions(straight.positions);
+        straight.positions = mend(surface, tangled)?.surface.positions;
+    }
     let body = ctx.stage("prepare", |_| prepared(surface, settings))?;
     // It grows with the square of the angle.
     let energy = share.powi(2) * body.energy_at(&straight.positions);

@@ -4,6 +4,7 @@ mod aim;
 pub mod contract;
 pub mod finish;
 pub mod glide;
+pub mod mend;
 pub mod merge;
 pub mod moving;
 pub mod orbits;
@@ -11,8 +12,10 @@ pub mod outcome;
 pub mod params;
 mod rounds;
 pub mod schedule;
+pub mod tangles;
 pub mod untangle;
 
+pub use mend::mend;
 pub use outcome::{Optimized, Outcome, Step};
 pub use params::OptimizeParams;
 pub use schedule::{complete, optimize};

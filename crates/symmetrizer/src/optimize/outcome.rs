@@ -98,6 +98,11 @@ pub enum Step {
         /// Share of the area where it was undone because the surface would have crossed itself.
         undone: f64,
     },
+    /// What was tangled got the input's form back.
+    Mend {
+        /// Share of the area.
+        share: f64,
+    },
 }
 
 /// The optimized surface and how it came about.
