@@ -1,6 +1,7 @@
 //! The whole paper: detection, contraction, merging and the figures before and after, in a row.
 
 mod bent;
+mod guard;
 pub mod kinds;
 mod measured;
 pub mod pictures;
@@ -16,7 +17,7 @@ use crate::detect::{DetectParams, Detection, Group, detect, detect_in_plane};
 use crate::error::Result;
 use crate::optimize::outcome::mirrors;
 use crate::optimize::schedule::Settings;
-use crate::optimize::{Optimized, Outcome, Step, mend, optimize};
+use crate::optimize::{Optimized, Outcome, optimize};
 use crate::params::Params;
 use crate::patch::{Symmetry, carry_ids};
 use crate::report::faces::FaceSamples;
@@ -171,17 +172,11 @@ fn made(
     };
     let measured = ctx.stage("measure", |ctx| before.asymmetry(&[], ctx))?;
     let stiffness = stiffness.per_face(&before.working);
-    let settings = Settings {
-        wall: before.wall.as_ref(),
-        stiffness: stiffness.as_deref(),
-        region: None,
-        detect: &detect,
-        deform: &params.deform,
-        optimize: &params.optimize,
-    };
+    let settings = settings_for(&before, stiffness.as_deref(), &detect, params);
     let surface = &before.working.surface;
     let exact = measured.max <= EXACT && mirrors(&before.detection).next().is_some();
     let (mut bend, mut bent) = (None, None);
+    let mut merged = false;
     let group = plane::group(&before).filter(|_| !only);
     let done = if let Some(group) = group {
         plane::orbited(&before, group, settings, ctx)?
@@ -201,10 +196,17 @@ fn made(
             None if only || !plane::mirrored(&before) => {
                 Optimized::unmoved(surface, &before.detection, Outcome::NoSymmetry)
             }
-            None => optimize(surface, &before.detection, settings, ctx)?,
+            None => {
+                merged = true;
+                optimize(surface, &before.detection, settings, ctx)?
+            }
         }
     };
-    let done = mended(&before, done, ctx)?;
+    let mut done = guard::mended(&before, done, ctx)?;
+    if merged && guard::spoiled(&done) {
+        merged = false;
+        done = guard::part_only(&before, settings, ctx)?;
+    }
     let faces = FaceSamples::of(&before);
     let asymmetry = AsymmetryReport::new(&measured, &before.working.normalization);
     let report = Report {
@@ -228,28 +230,35 @@ fn made(
         report,
     };
     if done.outcome != Outcome::NoSymmetry {
-        job.conclude(done, &detect, ctx)?;
+        job.conclude(done, mesh, &detect, ctx)?;
+        if merged && guard::worse(&job) {
+            let settings = settings_for(&job.before, stiffness.as_deref(), &detect, params);
+            let done = guard::part_only(&job.before, settings, ctx)?;
+            job.conclude(done, mesh, &detect, ctx)?;
+        }
+        guard::give_up_on_worse(&mut job, mesh, ctx);
         plane::give_up_on_worse(&mut job, ctx);
     }
     job.report.warnings = ctx.warnings().to_vec();
     Ok(job)
 }
 
-/// What was `done`, where it is tangled with the form of the input.
-fn mended(before: &Detected, mut done: Optimized, ctx: &mut Context<'_>) -> Result<Optimized> {
-    if before.wall.is_some() || done.steps.is_empty() {
-        return Ok(done);
+/// The settings of the work on the state `before`.
+fn settings_for<'a>(
+    before: &'a Detected,
+    stiffness: Option<&'a [f64]>,
+    detect: &'a DetectParams,
+    params: &'a Params,
+) -> Settings<'a> {
+    Settings {
+        wall: before.wall.as_ref(),
+        stiffness,
+        region: None,
+        part: false,
+        detect,
+        deform: &params.deform,
+        optimize: &params.optimize,
     }
-    let rest = &before.working.surface;
-    let after = rest.with_positions(std::mem::take(&mut done.positions));
-    let mended = ctx.stage("mend", |_| mend(rest, after))?;
-    if mended.share > 0.0 {
-        done.steps.push(Step::Mend {
-            share: mended.share,
-        });
-    }
-    done.positions = mended.surface.positions;
-    Ok(done)
 }
 
 /// Says what the stages do not see as the document has it.
@@ -294,9 +303,6 @@ fn compared(before: &Detected, after: &Detected) -> Result<Distortion> {
 /// A shape whose mirrored surface lies nowhere further than this from it, % of D, is symmetric to the
 /// rounding of single-precision coordinates: not a bit of it is changed.
 const EXACT: f64 = 2e-5;
-
-/// Mean asymmetry, % of D, that may come and go with the triangulation.
-const WORSE: f64 = 0.01;
 
 impl Detected {
     fn find(
@@ -364,15 +370,19 @@ impl Symmetrized {
         self.after.as_ref().map_or(&[], Detected::symmetries)
     }
 
-    /// Takes over what was `done`: the moved shape, its symmetries and figures.
+    /// Takes over what was `done` to `mesh`: the moved shape, its symmetries and figures.
     fn conclude(
         &mut self,
         done: Optimized,
+        mesh: &Mesh,
         params: &DetectParams,
         ctx: &mut Context<'_>,
     ) -> Result<()> {
         let before = &self.before;
-        self.shape = before.working.moved_document(&self.shape, &done.positions);
+        self.outcome = done.outcome;
+        self.report.outcome = done.outcome;
+        self.report.steps = done.steps;
+        self.shape = before.working.moved_document(mesh, &done.positions);
         let working = Working {
             surface: before.working.surface.with_positions(done.positions),
             ..before.working.clone()
@@ -405,14 +415,6 @@ impl Symmetrized {
                 symmetries: symmetry::all(&after, &faces),
             })
         })?;
-        let was = self.report.input.shape.mean_asymmetry();
-        if result.asymmetry.mean > 1.05 * was + WORSE {
-            ctx.warn(format!(
-                "as a whole the result is less symmetric than the input ({:.3} % of D, was {was:.3}): \
-                 a part was made symmetric at the cost of the rest",
-                result.asymmetry.mean
-            ));
-        }
         self.report.result = Some(result);
         self.after = Some(after);
         Ok(())

@@ -46,7 +46,6 @@ pub fn mend(before: &Surface, after: Surface) -> Result<Mended> {
         let freed = mending.freed(before);
         let now = after.with_positions(regain(before, &after, &freed)?);
         tangled = mending.tangles.faces(before, &now);
-        if std::env::var("DBG").is_ok() { let f=freed.clone(); eprintln!("mend: tangled {} share {:.4} ", tangled.len(), share(before,&f)); }
         if tangled.len() < best.0 {
             best = (tangled.len(), now, share(before, &freed));
         }

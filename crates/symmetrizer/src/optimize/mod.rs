@@ -10,6 +10,7 @@ pub mod moving;
 pub mod orbits;
 pub mod outcome;
 pub mod params;
+mod part;
 mod rounds;
 pub mod schedule;
 pub mod tangles;
