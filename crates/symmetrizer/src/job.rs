@@ -175,8 +175,9 @@ fn made(
     let settings = settings_for(&before, stiffness.as_deref(), &detect, params);
     let surface = &before.working.surface;
     let exact = measured.max <= EXACT && mirrors(&before.detection).next().is_some();
+    let asymmetry = measured.mean / 100.0 * before.diagonal;
     let (mut bend, mut bent) = (None, None);
-    let mut merged = false;
+    let (mut merged, mut part) = (false, false);
     let group = plane::group(&before).filter(|_| !only);
     let done = if let Some(group) = group {
         plane::orbited(&before, group, settings, ctx)?
@@ -188,8 +189,7 @@ fn made(
         };
         Optimized::unmoved(surface, &before.detection, outcome)
     } else {
-        let mean = measured.mean / 100.0 * before.diagonal;
-        let looked = bent::unbend(&before, mean, &params.straighten, settings, ctx)?;
+        let looked = bent::unbend(&before, asymmetry, &params.straighten, settings, ctx)?;
         (bend, bent) = (looked.report, looked.bent);
         match looked.done {
             Some(done) => done,
@@ -204,17 +204,23 @@ fn made(
     };
     let mut done = guard::mended(&before, done, ctx)?;
     if merged && guard::spoiled(&done) {
-        merged = false;
-        done = guard::part_only(&before, settings, ctx)?;
+        (merged, part) = (false, true);
+        let again = guard::Again {
+            before: &before,
+            asymmetry,
+            params,
+            settings,
+        };
+        done = again.part((&mut bend, &mut bent), ctx)?;
     }
     let faces = FaceSamples::of(&before);
-    let asymmetry = AsymmetryReport::new(&measured, &before.working.normalization);
+    let input = AsymmetryReport::new(&measured, &before.working.normalization);
     let report = Report {
         head: Head::new(params, ctx),
         outcome: done.outcome,
         warnings: Vec::new(),
         stiffness: stiffness.as_deref().map(StiffnessReport::new),
-        input: InputReport::new(mesh, &before, &faces, Some(asymmetry)),
+        input: InputReport::new(mesh, &before, &faces, Some(input)),
         bend,
         result: None,
         steps: done.steps.clone(),
@@ -232,12 +238,19 @@ fn made(
     if done.outcome != Outcome::NoSymmetry {
         job.conclude(done, mesh, &detect, ctx)?;
         if merged && guard::worse(&job) {
-            let settings = settings_for(&job.before, stiffness.as_deref(), &detect, params);
-            let done = guard::part_only(&job.before, settings, ctx)?;
+            part = true;
+            let again = guard::Again {
+                before: &job.before,
+                asymmetry,
+                params,
+                settings: settings_for(&job.before, stiffness.as_deref(), &detect, params),
+            };
+            let done = again.part((&mut job.report.bend, &mut job.bend), ctx)?;
             job.conclude(done, mesh, &detect, ctx)?;
         }
         guard::give_up_on_worse(&mut job, mesh, ctx);
         plane::give_up_on_worse(&mut job, ctx);
+        guard::say_part(&job, part, ctx);
     }
     job.report.warnings = ctx.warnings().to_vec();
     Ok(job)

@@ -182,7 +182,10 @@ fn done(step: &Step) -> String {
             100.0 * residual[1]
         ),
         Step::Mend { share } => {
-            format!("mend         {:.1} % of the area has its own form again", 100.0 * share)
+            format!(
+                "mend         {:.1} % of the area has its own form again",
+                100.0 * share
+            )
         }
         Step::Finish {
             rounds,

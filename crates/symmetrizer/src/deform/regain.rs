@@ -33,7 +33,11 @@ pub fn regain(rest: &Surface, now: &Surface, freed: &[bool]) -> Result<Vec<Point
     let mut system = EdgeSystem::new(&patch.rest, &edge_weights(&patch.rest, None))
         .map_err(|e| failure(e, 0))?;
     system.set_fixed(patch.held.clone());
-    let from: Vec<Point> = patch.vertices.iter().map(|&v| positions[v as usize]).collect();
+    let from: Vec<Point> = patch
+        .vertices
+        .iter()
+        .map(|&v| positions[v as usize])
+        .collect();
     let ways = system
         .ways(&patch.rest, &rotations, &[], 1.0, &from)
         .map_err(|e| failure(e, 0))?;

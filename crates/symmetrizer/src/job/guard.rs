@@ -2,9 +2,12 @@
 
 use crate::context::Context;
 use crate::error::Result;
+use crate::job::bent::{Bent, unbend_part};
 use crate::job::{Detected, Symmetrized};
 use crate::optimize::schedule::Settings;
 use crate::optimize::{Optimized, Outcome, Step, mend, optimize};
+use crate::params::Params;
+use crate::report::BendReport;
 use crate::shape::Mesh;
 
 /// Share of the area on which a tangled result had to be given back the form of the input, above which its mirror
@@ -38,19 +41,37 @@ pub(super) fn spoiled(done: &Optimized) -> bool {
     done.steps.iter().any(mended)
 }
 
-/// The work on the state `before` once more, with no more made symmetric than the main mirror holds for.
-pub(super) fn part_only(
-    before: &Detected,
-    settings: Settings<'_>,
-    ctx: &mut Context<'_>,
-) -> Result<Optimized> {
-    let settings = Settings {
-        part: true,
-        ..settings
-    };
-    let done = optimize(&before.working.surface, &before.detection, settings, ctx)?;
-    ctx.warn("only a part is made symmetric: the rest has no counterpart under its mirror");
-    mended(before, done, ctx)
+/// A state, its mean asymmetry (fraction of L) and how to work on it.
+pub(super) struct Again<'a> {
+    pub before: &'a Detected,
+    pub asymmetry: f64,
+    pub params: &'a Params,
+    pub settings: Settings<'a>,
+}
+
+impl Again<'_> {
+    /// The work once more, with no more made symmetric than a symmetry holds for: that about a bent axis, `looked`
+    /// at before, where it holds for most of the shape, else the main mirror.
+    pub fn part(
+        self,
+        looked: (&mut Option<BendReport>, &mut Option<Bent>),
+        ctx: &mut Context<'_>,
+    ) -> Result<Optimized> {
+        let (before, settings) = (self.before, self.settings);
+        let straighten = &self.params.straighten;
+        let unbent = unbend_part(before, self.asymmetry, looked, straighten, settings, ctx)?;
+        let done = match unbent {
+            Some(done) => done,
+            None => {
+                let settings = Settings {
+                    part: true,
+                    ..settings
+                };
+                optimize(&before.working.surface, &before.detection, settings, ctx)?
+            }
+        };
+        mended(before, done, ctx)
+    }
 }
 
 /// Whether the result of a `job` on a mesh is less symmetric than the input. What keeps its pose is not measured by
@@ -59,7 +80,11 @@ pub(super) fn worse(job: &Symmetrized) -> bool {
     let Some(result) = &job.report.result else {
         return false;
     };
-    let posed = job.report.steps.iter().any(|s| matches!(s, Step::Bend { .. }));
+    let posed = job
+        .report
+        .steps
+        .iter()
+        .any(|s| matches!(s, Step::Bend { .. }));
     let measured = job.before.wall.is_none() && !posed;
     measured && result.asymmetry.mean > job.report.input.shape.mean_asymmetry()
 }
@@ -76,6 +101,13 @@ pub(super) fn give_up_on_worse(job: &mut Symmetrized, mesh: &Mesh, ctx: &mut Con
         job.report.input.shape.mean_asymmetry()
     ));
     leave(job, mesh.clone());
+}
+
+/// Says that the rest was left, where a `part` was made symmetric and is still.
+pub(super) fn say_part(job: &Symmetrized, part: bool, ctx: &mut Context<'_>) {
+    if part && job.after.is_some() {
+        ctx.warn("only a part is made symmetric: the rest has no counterpart that fits");
+    }
 }
 
 /// Takes the result of a `job` back: its shape is the input's, `shape`.

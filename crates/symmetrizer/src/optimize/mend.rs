@@ -11,6 +11,8 @@ use crate::deform::regain::regain;
 use crate::error::Result;
 use crate::optimize::tangles::Tangles;
 use crate::shape::Surface;
+use crate::shape::crossings::crossing_faces;
+use crate::shape::inverted::inverted_faces;
 
 /// Attempts at the most.
 const ATTEMPTS: usize = 10;
@@ -19,6 +21,9 @@ const ATTEMPTS: usize = 10;
 const FIRST: (f64, f64) = (0.015, 2.0);
 /// How much further in each one that follows, where it was not enough.
 const FURTHER: f64 = 1.5;
+
+/// No more than this share of the area is given back.
+const MOST: f64 = 0.5;
 
 /// A surface that was mended.
 pub struct Mended {
@@ -34,26 +39,35 @@ pub struct Mended {
 /// # Errors
 /// [`crate::Error::Numerical`].
 pub fn mend(before: &Surface, after: Surface) -> Result<Mended> {
+    let untouched = |surface| Mended {
+        surface,
+        share: 0.0,
+    };
+    if crossing_faces(&after).is_empty() && inverted_faces(before, &after).is_empty() {
+        return Ok(untouched(after));
+    }
     let mut mending = Mending::new(before);
-    let first = mending.tangles.faces(before, &after);
-    let mut best = (first.len(), after.clone(), 0.0);
-    let mut tangled = first;
+    let mut tangled = mending.tangles.faces(before, &after);
+    let mut fewest = tangled.len();
+    let mut best = untouched(after.clone());
     for _ in 0..ATTEMPTS {
         if tangled.is_empty() {
             break;
         }
         mending.widen(before, &tangled);
         let freed = mending.freed(before);
-        let now = after.with_positions(regain(before, &after, &freed)?);
-        tangled = mending.tangles.faces(before, &now);
-        if tangled.len() < best.0 {
-            best = (tangled.len(), now, share(before, &freed));
+        let share = share(before, &freed);
+        if share > MOST {
+            break;
+        }
+        let surface = after.with_positions(regain(before, &after, &freed)?);
+        tangled = mending.tangles.faces(before, &surface);
+        if tangled.len() < fewest {
+            fewest = tangled.len();
+            best = Mended { surface, share };
         }
     }
-    Ok(Mended {
-        surface: best.1,
-        share: best.2,
-    })
+    Ok(best)
 }
 
 /// The share of the area at the vertices that are freed.

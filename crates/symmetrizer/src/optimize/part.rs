@@ -34,7 +34,8 @@ pub fn part(surface: &Surface, samples: &Samples, symmetry: &Symmetry) -> Vec<f6
     let vertices = surface.positions.par_iter().zip(&surface.vertex_normals);
     let at = |(x, normal): (&crate::geom::Point, &crate::geom::Vector)| {
         let near = index.nearest_n(&x.coords.into(), NEAR);
-        let facing = |&&(s, _): &&(u32, f64)| surface.normal(&samples.list[s as usize].at).dot(normal) > 0.0;
+        let facing =
+            |&&(s, _): &&(u32, f64)| surface.normal(&samples.list[s as usize].at).dot(normal) > 0.0;
         let nearest = near.iter().find(facing).or_else(|| near.first());
         let share = nearest.map_or(0.0, |&(s, _)| share[s as usize]);
         ((share - low) / (high - low)).clamp(0.0, 1.0)

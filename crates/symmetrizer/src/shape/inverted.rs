@@ -1,5 +1,7 @@
 //! Faces that a deformation has turned over.
 
+use rayon::prelude::*;
+
 use crate::geom::{Matrix3, Vector, nearest_orthogonal};
 use crate::shape::surface::Surface;
 
@@ -18,6 +20,7 @@ pub fn inverted_faces(before: &Surface, after: &Surface) -> Vec<u32> {
         expected.dot(&after.face_normals[f as usize]) < 0.0
     };
     (0..before.triangles.len() as u32)
+        .into_par_iter()
         .filter(turned_over)
         .collect()
 }
