@@ -88,6 +88,7 @@ impl Bunny {
         Settings {
             wall: None,
             region: None,
+            part: false,
             stiffness: None,
             detect: &self.detect,
             deform: &self.deform,

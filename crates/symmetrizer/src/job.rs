@@ -2,6 +2,7 @@
 
 mod arranged;
 mod bent;
+mod guard;
 pub mod kinds;
 mod measured;
 pub mod pictures;
@@ -178,30 +179,41 @@ fn made(
     let measured = ctx.stage("measure", |ctx| before.asymmetry(&[], ctx))?;
     let stiffness = stiffness.per_face(&before.working);
     let wall = before.wall.clone();
-    let settings = Settings {
-        wall: wall.as_ref(),
-        stiffness: stiffness.as_deref(),
-        region: None,
-        detect: &detect,
-        deform: &params.deform,
-        optimize: &params.optimize,
-    };
+    let settings = settings_for(wall.as_ref(), stiffness.as_deref(), &detect, params);
     let mean = measured.mean / 100.0 * before.diagonal;
     let exact = measured.max <= EXACT || measured.rms <= ROUNDED && measured.max <= STRAY;
-    let Arranged { done, bend, bent } = match (before.wall.is_some(), only) {
+    let arranged = match (before.wall.is_some(), only) {
         (false, false) => {
             arranged::symmetrized(&mut before, (mean, exact), &params.straighten, settings, ctx)?
         }
         _ => mirrored(&before, (mean, exact), (params, only), settings, ctx)?,
     };
+    let Arranged {
+        done,
+        mut bend,
+        mut bent,
+        mut merged,
+    } = arranged;
+    let mut part = false;
+    let mut done = guard::mended(&before, done, ctx)?;
+    if let Some(state) = merged.take_if(|_| guard::spoiled(&done)) {
+        part = true;
+        let again = guard::Again {
+            before: &state,
+            asymmetry: mean,
+            params,
+            settings,
+        };
+        done = again.part((&mut bend, &mut bent), ctx)?;
+    }
     let faces = FaceSamples::of(&before);
-    let asymmetry = AsymmetryReport::new(&measured, &before.working.normalization);
+    let input = AsymmetryReport::new(&measured, &before.working.normalization);
     let report = Report {
         head: Head::new(params, ctx),
         outcome: done.outcome,
         warnings: Vec::new(),
         stiffness: stiffness.as_deref().map(StiffnessReport::new),
-        input: InputReport::new(mesh, &before, &faces, Some(asymmetry)),
+        input: InputReport::new(mesh, &before, &faces, Some(input)),
         bend,
         result: None,
         steps: done.steps.clone(),
@@ -218,11 +230,24 @@ fn made(
     };
     if done.outcome != Outcome::NoSymmetry {
         let again = match done.goals.is_empty() {
-            true => detect,
+            true => detect.clone(),
             false => sought_again(params, &detect, &job.before),
         };
-        job.conclude(done, &again, ctx)?;
+        job.conclude(done, mesh, &again, ctx)?;
+        if let Some(state) = merged.filter(|_| guard::worse(&job)) {
+            part = true;
+            let again = guard::Again {
+                before: &state,
+                asymmetry: mean,
+                params,
+                settings,
+            };
+            let done = again.part((&mut job.report.bend, &mut job.bend), ctx)?;
+            job.conclude(done, mesh, &detect, ctx)?;
+        }
+        guard::give_up_on_worse(&mut job, mesh, ctx);
         plane::give_up_on_worse(&mut job, ctx);
+        guard::say_part(&job, part, ctx);
     }
     job.report.warnings = ctx.warnings().to_vec();
     Ok(job)
@@ -270,7 +295,26 @@ fn mirrored(
         done,
         bend: looked.report,
         bent: looked.bent,
+        merged: None,
     })
+}
+
+/// The settings of the work.
+fn settings_for<'a>(
+    wall: Option<&'a Wall>,
+    stiffness: Option<&'a [f64]>,
+    detect: &'a DetectParams,
+    params: &'a Params,
+) -> Settings<'a> {
+    Settings {
+        wall,
+        stiffness,
+        region: None,
+        part: false,
+        detect,
+        deform: &params.deform,
+        optimize: &params.optimize,
+    }
 }
 
 /// Says what the stages do not see as the document has it.
@@ -319,9 +363,6 @@ const EXACT: f64 = 2e-5;
 /// The same of coordinates with six digits, as text has them: rms distance, and that of single vertices, % of D.
 const ROUNDED: f64 = 1e-4;
 const STRAY: f64 = 5e-3;
-
-/// Mean asymmetry, % of D, that may come and go with the triangulation.
-const WORSE: f64 = 0.01;
 
 impl Detected {
     fn find(
@@ -389,16 +430,19 @@ impl Symmetrized {
         self.after.as_ref().map_or(&[], Detected::symmetries)
     }
 
-    /// Takes over what was `done`: the moved shape, its symmetries and figures.
+    /// Takes over what was `done` to `mesh`: the moved shape, its symmetries and figures.
     fn conclude(
         &mut self,
         done: Optimized,
+        mesh: &Mesh,
         params: &DetectParams,
         ctx: &mut Context<'_>,
     ) -> Result<()> {
         let before = &self.before;
-        let of_one_mirror = done.goals.is_empty();
-        self.shape = before.working.moved_document(&self.shape, &done.positions);
+        self.outcome = done.outcome;
+        self.report.outcome = done.outcome;
+        self.report.steps = done.steps;
+        self.shape = before.working.moved_document(mesh, &done.positions);
         let working = Working {
             surface: before.working.surface.with_positions(done.positions),
             ..before.working.clone()
@@ -432,14 +476,6 @@ impl Symmetrized {
                 symmetries: symmetry::all(&after, &faces),
             })
         })?;
-        let was = self.report.input.shape.mean_asymmetry();
-        if of_one_mirror && result.asymmetry.mean > 1.05 * was + WORSE {
-            ctx.warn(format!(
-                "as a whole the result is less symmetric than the input ({:.3} % of D, was {was:.3}): \
-                 a part was made symmetric at the cost of the rest",
-                result.asymmetry.mean
-            ));
-        }
         self.report.result = Some(result);
         self.after = Some(after);
         Ok(())

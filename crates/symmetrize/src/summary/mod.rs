@@ -180,6 +180,12 @@ fn done(step: &Step) -> String {
             rounds,
             ..
         } => orbits::done(goals, *steps, *rounds),
+        Step::Mend { share } => {
+            format!(
+                "mend         {:.1} % of the area has its own form again",
+                100.0 * share
+            )
+        }
         Step::Finish {
             rounds,
             asymmetry,

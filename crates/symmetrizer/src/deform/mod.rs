@@ -12,6 +12,7 @@ pub mod laplacian;
 pub mod params;
 pub mod poisson;
 pub mod primo;
+pub mod regain;
 pub mod relax;
 pub mod smooth;
 pub mod solver;

@@ -88,6 +88,8 @@ pub(super) struct Arranged {
     pub bend: Option<BendReport>,
     /// What that is about.
     pub bent: Option<Bent>,
+    /// The state whose mirrors were merged, where they were.
+    pub merged: Option<Box<Detected>>,
 }
 
 /// Makes the symmetries of `found` exact; its asymmetry is that `mean` (fraction of L), or it is `exact`. The mirrors of weaker
@@ -118,16 +120,20 @@ pub(super) fn symmetrized(
     }
     let state = state(found, near, &detailed);
     let looked = bent::unbend(&state, mean, params, settings, ctx)?;
-    let trusted = looked.report.as_ref().is_some_and(|bend| bend.verdict == Verdict::Accept);
-    let whole = looked.done.is_some() || trusted || has_main_mirror(&state.detection, &details);
-    let mut done = match looked.done {
-        Some(done) => done,
-        None if whole => optimize(&state.working.surface, &state.detection, settings, ctx)?,
+    let trusted = looked
+        .report
+        .as_ref()
+        .is_some_and(|bend| bend.verdict == Verdict::Accept);
+    let whole = trusted || all.is_empty() || has_main_mirror(&state.detection, &details);
+    let (mut done, merged) = match looked.done {
+        Some(done) => (done, false),
+        None if whole => (optimize(&state.working.surface, &state.detection, settings, ctx)?, true),
         None => {
             return Ok(Arranged {
                 done: met(found, &all, settings, ctx)?,
                 bend: looked.report,
                 bent: looked.bent,
+                merged: None,
             });
         }
     };
@@ -137,6 +143,7 @@ pub(super) fn symmetrized(
         done,
         bend: looked.report,
         bent: looked.bent,
+        merged: merged.then(|| Box::new(state)),
     })
 }
 
@@ -147,6 +154,7 @@ impl Arranged {
             done,
             bend: None,
             bent: None,
+            merged: None,
         }
     }
 }

@@ -9,13 +9,16 @@ use crate::field::trust::Verdict;
 use crate::job::{Detected, plane};
 use crate::optimize::outcome::mirrors;
 use crate::optimize::schedule::{Settings, prepared};
-use crate::optimize::{Optimized, Step, complete};
+use crate::optimize::{Optimized, Step, complete, mend};
 use crate::report::{BendReport, KeptReport};
 use crate::shape::ClosestPoint;
 use crate::straighten::{Bend, StraightenParams, Straightened, When, bend_again, straighten};
 
 /// Distance along the surface that a field looks at, fraction of L.
 pub(super) const REACH: f64 = 0.12;
+
+/// Share of the samples that a part is to hold which is straightened though the whole is uncertain.
+const MOST: f64 = 0.5;
 
 /// A bend that was found, for pictures of it.
 pub struct Bent {
@@ -70,7 +73,8 @@ pub(super) fn unbend(
     };
     let mut report = BendReport::new(&bend);
     let enough = bend.degrees >= params.min_bend || !plane::mirrored(before);
-    let undone = if enough && wanted(report.verdict, params.when) {
+    let wanted = wanted(report.verdict, params.when);
+    let undone = if enough && wanted {
         undone(before, asymmetry, &land, &bend, params.share, settings, ctx)?
     } else {
         None
@@ -85,6 +89,49 @@ pub(super) fn unbend(
         bent: Some(Bent { bend, straight }),
         done,
     })
+}
+
+/// The bend that was `looked` at undone in the part that it is sure of, where that is most of the shape and the whole
+/// cannot be had by other means.
+pub(super) fn unbend_part(
+    before: &Detected,
+    asymmetry: f64,
+    looked: (&mut Option<BendReport>, &mut Option<Bent>),
+    params: &StraightenParams,
+    settings: Settings<'_>,
+    ctx: &mut Context<'_>,
+) -> Result<Option<Optimized>> {
+    let (Some(report), Some(bent)) = looked else {
+        return Ok(None);
+    };
+    let uncertain = report.verdict == Verdict::Uncertain && bent.bend.degrees >= params.min_bend;
+    if params.when == When::Never || !uncertain || bent.straight.is_some() {
+        return Ok(None);
+    }
+    let surface = &before.working.surface;
+    let samples = &before.detection.samples;
+    let reach = Reach::new(samples, REACH);
+    let closest = ClosestPoint::new(surface);
+    let land = Land::new(surface, &closest, samples, &reach).with_stiffness(settings.stiffness);
+    let region = bent.bend.trust.region(&land);
+    if region.iter().sum::<f64>() < MOST * region.len() as f64 {
+        return Ok(None);
+    }
+    let undone = undone(
+        before,
+        asymmetry,
+        &land,
+        &bent.bend,
+        params.share,
+        settings,
+        ctx,
+    )?;
+    Ok(undone.map(|undone| {
+        report.removed = params.share * bent.bend.degrees;
+        report.kept = undone.kept;
+        bent.straight = Some(undone.straight);
+        undone.done
+    }))
 }
 
 /// A bend undone.
@@ -107,7 +154,12 @@ fn undone(
     ctx: &mut Context<'_>,
 ) -> Result<Option<Undone>> {
     let surface = land.surface;
-    let straight = ctx.stage("straighten", |_| straighten(land, bend))?;
+    let mut straight = ctx.stage("straighten", |_| straighten(land, bend))?;
+    if land.wall.is_none() {
+        // Fingers that are pressed together would only be drawn on.
+        let tangled = surface.with_positions(straight.positions);
+        straight.positions = mend(surface, tangled)?.surface.positions;
+    }
     let body = ctx.stage("prepare", |_| prepared(surface, settings))?;
     // It grows with the square of the angle.
     let energy = share.powi(2) * body.energy_at(&straight.positions);

@@ -7,12 +7,12 @@ use crate::detect::{DetectParams, Want, Wanted};
 use crate::drawing::{Drawing, Outline};
 use crate::error::{Error, Result};
 use crate::geom::{Matrix3, Point, Vector};
-use crate::job::{Detected, Measured, Symmetrized, made};
+use crate::job::{Detected, Measured, Symmetrized, guard, made};
 use crate::optimize::orbit::Goal;
 use crate::optimize::outcome::mirrors;
 use crate::optimize::plan::goals;
 use crate::optimize::schedule::Settings;
-use crate::optimize::{Outcome, Step};
+use crate::optimize::Step;
 use crate::params::Params;
 use crate::shape::wall::Wall;
 use crate::shape::working::{Normalization, Working};
@@ -87,16 +87,8 @@ pub(super) fn give_up_on_worse(job: &mut Symmetrized, ctx: &mut Context<'_>) {
             if crossed { "it would cross itself" } else { "it would hardly be more so" },
             result.asymmetry.mean
         ));
-        if let Some(bend) = &mut job.report.bend {
-            bend.removed = 0.0;
-        }
-        job.report.result = None;
-        job.report.steps.clear();
-        job.report.outcome = Outcome::NoSymmetry;
-        job.outcome = Outcome::NoSymmetry;
-        job.after = None;
-        let wall = wall.clone();
-        job.shape = corners(&wall);
+        let shape = corners(wall);
+        guard::leave(job, shape);
     }
 }
 

@@ -101,6 +101,11 @@ pub enum Step {
         /// Share of the area where it was undone because the surface would have crossed itself.
         undone: f64,
     },
+    /// What was tangled got the input's form back.
+    Mend {
+        /// Share of the area.
+        share: f64,
+    },
 }
 
 /// What became of symmetries that were to be made exact together.

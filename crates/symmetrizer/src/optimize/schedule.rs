@@ -11,6 +11,7 @@ use crate::optimize::merge::{merge, ownership};
 use crate::optimize::moving::Moving;
 use crate::optimize::outcome::{Optimized, Outcome, Step, mirrors, next_id};
 use crate::optimize::params::OptimizeParams;
+use crate::optimize::part::part;
 use crate::optimize::untangle::untangle;
 use crate::patch::{Symmetry, carry_ids};
 use crate::sample::{Sample, Samples};
@@ -29,6 +30,8 @@ pub struct Settings<'a> {
     pub stiffness: Option<&'a [f64]>,
     /// How far each vertex may be changed, 0 to 1, where the symmetry holds for a part only.
     pub region: Option<&'a [f64]>,
+    /// Whether only what the main mirror holds for is made symmetric in the end, and not the whole.
+    pub part: bool,
     /// The deformation model.
     pub deform: &'a DeformParams,
     /// The schedule.
@@ -67,6 +70,7 @@ pub fn optimize(
             settings,
             detection.samples.list.len(),
         ),
+        region: settings.region.map(<[f64]>::to_vec),
         steps: Vec::new(),
         outcome: Outcome::Converged,
         failed: Vec::new(),
@@ -146,6 +150,7 @@ pub fn complete(
         moving: moving(straightened, detection, settings, deformer.as_mut()),
         settings,
         symmetries: Vec::new(),
+        region: settings.region.map(<[f64]>::to_vec),
         steps: Vec::new(),
         outcome: Outcome::Converged,
         failed: Vec::new(),
@@ -189,6 +194,8 @@ struct Schedule<'a> {
     moving: Moving<'a>,
     settings: Settings<'a>,
     symmetries: Vec<Symmetry>,
+    /// How far each vertex may be changed in the end, where it is not the whole surface.
+    region: Option<Vec<f64>>,
     steps: Vec<Step>,
     outcome: Outcome,
     /// Ids of symmetries whose merge was undone.
@@ -203,6 +210,10 @@ impl Schedule<'_> {
         ctx.stage("contract", |ctx| self.contract_all(ctx))?;
         if self.outcome != Outcome::EnergyLimit {
             ctx.stage("merge", |ctx| self.merge_all(ctx))?;
+        }
+        if self.settings.part {
+            let now = self.moving.snapshot();
+            self.region = Some(part(&now.surface, &now.samples, self.main()));
         }
         let plane = self.main().plane();
         self.whole(plane, asymmetry_before, ctx)
@@ -224,9 +235,11 @@ impl Schedule<'_> {
             let now = self.moving.deformer.rest().with_positions(positions);
             let params = self.settings.optimize;
             let goal = params.finish_asymmetry.min(FINISH_SHARE * asymmetry_before);
-            let done = ctx.stage("finish", |ctx| {
-                finish(&now, plane, goal, self.settings, ctx)
-            })?;
+            let settings = Settings {
+                region: self.region.as_deref(),
+                ..self.settings
+            };
+            let done = ctx.stage("finish", |ctx| finish(&now, plane, goal, settings, ctx))?;
             self.steps.push(Step::Finish {
                 rounds: done.rounds,
                 asymmetry: done.asymmetry,
@@ -380,7 +393,7 @@ impl Schedule<'_> {
 
     fn contract_whole(&mut self, plane: Plane, ctx: &mut Context<'_>) -> Result<Plane> {
         let triangles = self.moving.deformer.rest().triangles.clone();
-        let region = self.settings.region;
+        let region = self.region.as_deref();
         let inside = |s: &Sample| {
             let corners = triangles[s.at.face as usize].iter().zip(s.at.bary);
             let share = |region: &[f64]| corners.map(|(&v, b)| b * region[v as usize]).sum::<f64>();

@@ -8,6 +8,7 @@ pub mod crossings;
 pub mod curvature;
 pub mod document;
 pub mod fairing;
+pub mod inverted;
 pub mod io;
 pub mod mesh;
 pub mod models;

@@ -112,6 +112,13 @@ impl Surface {
         sides
     }
 
+    /// Every edge once, as vertices in increasing order, sorted.
+    pub fn edges(&self) -> Vec<[u32; 2]> {
+        let mut edges = self.sides();
+        edges.dedup();
+        edges
+    }
+
     /// Median length of the triangles' sides (inner edges count twice), in units of L: that of the
     /// detail, however large the triangles of a plain beside it are.
     pub fn median_edge(&self) -> f64 {

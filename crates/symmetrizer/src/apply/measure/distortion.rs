@@ -7,9 +7,10 @@ use crate::apply::measure::curvature::curvature_correlation;
 use crate::apply::measure::percentile;
 use crate::apply::measure::volume::volume;
 use crate::deform::elastic::Motion;
-use crate::geom::{Matrix3, Point, Vector, nearest_orthogonal};
+use crate::geom::Point;
 use crate::shape::Surface;
 use crate::shape::crossings::{crossing_faces, new_crossings};
+use crate::shape::inverted::inverted_faces;
 
 /// Edges shorter than this fraction of L count as this long, so that a collapsed one gives a
 /// large stretch and not an infinite one; ours.
@@ -85,13 +86,6 @@ pub(super) fn displacement(before: &Surface, positions: &[Point]) -> (f64, f64) 
     ((sum / total).sqrt(), max.sqrt())
 }
 
-/// Every edge once, as vertices in increasing order.
-fn edges(surface: &Surface) -> Vec<[u32; 2]> {
-    let mut edges = surface.sides();
-    edges.dedup();
-    edges
-}
-
 /// The `p`-quantile of |ln(l' / l)| over the edges.
 pub(super) fn edge_stretch(before: &Surface, after: &Surface, p: f64) -> f64 {
     let length = |s: &Surface, [u, v]: [u32; 2]| {
@@ -99,7 +93,8 @@ pub(super) fn edge_stretch(before: &Surface, after: &Surface, p: f64) -> f64 {
             .norm()
             .max(SHORTEST_EDGE)
     };
-    let mut stretch: Vec<f64> = edges(before)
+    let mut stretch: Vec<f64> = before
+        .edges()
         .into_iter()
         .map(|e| (length(after, e) / length(before, e)).ln().abs())
         .collect();
@@ -111,48 +106,4 @@ fn volume_ratio(before: &Surface, after: &Surface) -> Option<f64> {
     // A sheet has a volume of rounding only: nothing to compare with.
     let old = volume(before);
     (old.abs() > 1e-6).then(|| volume(after) / old)
-}
-
-/// The faces, sorted, that are turned over against the surface around them.
-///
-/// Around each face, over the two rings of vertices next to it, one rotation R fits the edges
-/// before to those after best. The face is inverted when its normal after makes more than a right
-/// angle with R times its normal before. So a part that turns as a whole, even upside down, has no
-/// inverted faces; a fold has. Faces without area are never counted.
-pub fn inverted_faces(before: &Surface, after: &Surface) -> Vec<u32> {
-    let around = spread(before, &edge_covariances(before, after));
-    let turned_over = |&f: &u32| {
-        let corners = before.triangles[f as usize];
-        let h: Matrix3 = corners.iter().map(|&v| around[v as usize]).sum();
-        let expected = nearest_orthogonal(&h.transpose(), false) * before.face_normals[f as usize];
-        expected.dot(&after.face_normals[f as usize]) < 0.0
-    };
-    (0..before.triangles.len() as u32)
-        .filter(turned_over)
-        .collect()
-}
-
-/// For each vertex the sum of e e'^T over the edges at it, e before and e' after.
-fn edge_covariances(before: &Surface, after: &Surface) -> Vec<Matrix3> {
-    let mut sums = vec![Matrix3::zeros(); before.positions.len()];
-    let edge = |s: &Surface, [u, v]: [u32; 2]| -> Vector {
-        s.positions[v as usize] - s.positions[u as usize]
-    };
-    for e in edges(before) {
-        let product = edge(before, e) * edge(after, e).transpose();
-        for v in e {
-            sums[v as usize] += product;
-        }
-    }
-    sums
-}
-
-/// Adds to each vertex's matrix those of its neighbours.
-fn spread(surface: &Surface, own: &[Matrix3]) -> Vec<Matrix3> {
-    let mut sums = own.to_vec();
-    for [u, v] in edges(surface) {
-        sums[u as usize] += own[v as usize];
-        sums[v as usize] += own[u as usize];
-    }
-    sums
 }

@@ -9,9 +9,10 @@ mod report;
 mod search;
 mod volume;
 
+pub use crate::shape::inverted::inverted_faces;
 pub use asymmetry::{Asymmetry, NearPlane, asymmetry, asymmetry_of_outline, per_vertex};
 pub use curvature::{curvature_correlation, mean_curvature};
-pub use distortion::{Distortion, distortion, inverted_faces};
+pub use distortion::{Distortion, distortion};
 pub use plane::distortion_of_outline;
 pub use report::{AsymmetryReport, Measure, NearReport, PlaneReport};
 

@@ -1,0 +1,107 @@
+//! A part of a deformed surface regains the form that it has at rest, and stays where the rest of the
+//! surface took it.
+
+use crate::deform::carry::motions;
+use crate::deform::failure;
+use crate::deform::harmonic::rotations_inside;
+use crate::deform::laplacian::edge_weights;
+use crate::deform::poisson::system::EdgeSystem;
+use crate::error::Result;
+use crate::geom::{Matrix3, Point};
+use crate::shape::Surface;
+
+/// Positions of `now`, a deformed state of `rest`, with the vertices that are `freed` moved to where the edges
+/// there are those of `rest`, turned as the surface around has turned (harmonic rotations, then their
+/// Poisson equation). All others stay, as do loose parts that are freed as a whole: nothing holds them.
+///
+/// # Errors
+/// [`crate::Error::Numerical`].
+pub fn regain(rest: &Surface, now: &Surface, freed: &[bool]) -> Result<Vec<Point>> {
+    let mut positions = now.positions.clone();
+    let patch = Patch::new(rest, freed);
+    if !patch.held.contains(&false) {
+        return Ok(positions);
+    }
+    let motions = motions(rest, now);
+    let known: Vec<Option<Matrix3>> = patch
+        .vertices
+        .iter()
+        .zip(&patch.held)
+        .map(|(&v, held)| held.then(|| motions[v as usize].rotation))
+        .collect();
+    let rotations = rotations_inside(&patch.rest, &known)?;
+    let mut system = EdgeSystem::new(&patch.rest, &edge_weights(&patch.rest, None))
+        .map_err(|e| failure(e, 0))?;
+    system.set_fixed(patch.held.clone());
+    let from: Vec<Point> = patch
+        .vertices
+        .iter()
+        .map(|&v| positions[v as usize])
+        .collect();
+    let ways = system
+        .ways(&patch.rest, &rotations, &[], 1.0, &from)
+        .map_err(|e| failure(e, 0))?;
+    for (&v, way) in patch.vertices.iter().zip(&ways) {
+        positions[v as usize] += way;
+    }
+    Ok(positions)
+}
+
+/// The faces around what is freed.
+struct Patch {
+    rest: Surface,
+    /// The surface's vertex for each of the patch.
+    vertices: Vec<u32>,
+    /// Whether each stays.
+    held: Vec<bool>,
+}
+
+impl Patch {
+    fn new(rest: &Surface, freed: &[bool]) -> Self {
+        let touched = |t: &&[u32; 3]| t.iter().any(|&v| freed[v as usize]);
+        let faces: Vec<[u32; 3]> = rest.triangles.iter().filter(touched).copied().collect();
+        let mut vertices: Vec<u32> = faces.iter().flatten().copied().collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let mut number = vec![0; rest.positions.len()];
+        for (k, &v) in (0..).zip(&vertices) {
+            number[v as usize] = k;
+        }
+        let triangles = faces.iter().map(|t| t.map(|v| number[v as usize]));
+        let places = vertices.iter().map(|&v| rest.positions[v as usize]);
+        let rest = Surface::new(places.collect(), triangles.collect());
+        let mut held: Vec<bool> = vertices.iter().map(|&v| !freed[v as usize]).collect();
+        hold_loose(&rest, &mut held);
+        Self {
+            rest,
+            vertices,
+            held,
+        }
+    }
+}
+
+/// Holds the pieces of which nothing is held.
+fn hold_loose(patch: &Surface, held: &mut [bool]) {
+    let mut root: Vec<u32> = (0..held.len() as u32).collect();
+    for [u, v] in patch.edges() {
+        let [a, b] = [u, v].map(|v| find(&mut root, v));
+        root[a.max(b) as usize] = a.min(b);
+    }
+    let roots: Vec<u32> = (0..held.len() as u32).map(|v| find(&mut root, v)).collect();
+    let mut holds = vec![false; held.len()];
+    for (&root, held) in roots.iter().zip(&*held) {
+        holds[root as usize] |= held;
+    }
+    for (&root, held) in roots.iter().zip(held) {
+        *held |= !holds[root as usize];
+    }
+}
+
+/// The root of a piece, the ways there made shorter.
+fn find(root: &mut [u32], mut v: u32) -> u32 {
+    while root[v as usize] != v {
+        root[v as usize] = root[root[v as usize] as usize];
+        v = root[v as usize];
+    }
+    v
+}

@@ -1,0 +1,157 @@
+//! What is tangled at the end gets the form back that it had.
+//!
+//! Fingers, claws and folds that have no counterpart, or a wrong one, may be pushed through each other on the
+//! way. Nothing that was gained is worth that: there the surface regains the input's own form, carried along
+//! with what lies around, over no more of it than it takes.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use crate::deform::regain::regain;
+use crate::error::Result;
+use crate::optimize::tangles::Tangles;
+use crate::shape::Surface;
+use crate::shape::crossings::crossing_faces;
+use crate::shape::inverted::inverted_faces;
+
+/// Attempts at the most.
+const ATTEMPTS: usize = 10;
+/// How far around a tangle the form is given back in the first attempt, along the surface: fraction of L, and mean
+/// edges at the least.
+const FIRST: (f64, f64) = (0.015, 2.0);
+/// How much further in each one that follows, where it was not enough.
+const FURTHER: f64 = 1.5;
+
+/// No more than this share of the area is given back.
+const MOST: f64 = 0.5;
+
+/// A surface that was mended.
+pub struct Mended {
+    /// The surface.
+    pub surface: Surface,
+    /// Share of its area that has the form of the input again.
+    pub share: f64,
+}
+
+/// `after`, a deformed state of `before`, mended where faces cross or are turned over that did not and were not
+/// before: there it has the form of `before` again. What cannot be mended stays.
+///
+/// # Errors
+/// [`crate::Error::Numerical`].
+pub fn mend(before: &Surface, after: Surface) -> Result<Mended> {
+    let untouched = |surface| Mended {
+        surface,
+        share: 0.0,
+    };
+    if crossing_faces(&after).is_empty() && inverted_faces(before, &after).is_empty() {
+        return Ok(untouched(after));
+    }
+    let mut mending = Mending::new(before);
+    let mut tangled = mending.tangles.faces(before, &after);
+    let mut fewest = tangled.len();
+    let mut best = untouched(after.clone());
+    for _ in 0..ATTEMPTS {
+        if tangled.is_empty() {
+            break;
+        }
+        mending.widen(before, &tangled);
+        let freed = mending.freed(before);
+        let share = share(before, &freed);
+        if share > MOST {
+            break;
+        }
+        let surface = after.with_positions(regain(before, &after, &freed)?);
+        tangled = mending.tangles.faces(before, &surface);
+        if tangled.len() < fewest {
+            fewest = tangled.len();
+            best = Mended { surface, share };
+        }
+    }
+    Ok(best)
+}
+
+/// The share of the area at the vertices that are freed.
+fn share(surface: &Surface, freed: &[bool]) -> f64 {
+    let areas = surface.vertex_areas.iter().zip(freed);
+    areas.filter(|(_, f)| **f).map(|(a, _)| a).sum::<f64>() / surface.area()
+}
+
+/// How far the mending has come.
+struct Mending {
+    tangles: Tangles,
+    /// Vertices next to each.
+    neighbors: Vec<Vec<u32>>,
+    /// How far around each vertex the form is given back, 0 where it lies at no tangle.
+    reach: Vec<f64>,
+    /// The first of them.
+    first: f64,
+}
+
+impl Mending {
+    fn new(before: &Surface) -> Self {
+        let mut neighbors = vec![Vec::new(); before.positions.len()];
+        for [u, v] in before.edges() {
+            neighbors[u as usize].push(v);
+            neighbors[v as usize].push(u);
+        }
+        Self {
+            tangles: Tangles::of(before, &neighbors),
+            reach: vec![0.0; before.positions.len()],
+            first: FIRST.0.max(FIRST.1 * before.mean_edge()),
+            neighbors,
+        }
+    }
+
+    /// Reaches further from where faces are still tangled than what was given back there did.
+    fn widen(&mut self, surface: &Surface, tangled: &[u32]) {
+        let (_, owner) = self.spread(surface);
+        let mut at: Vec<u32> = tangled
+            .iter()
+            .flat_map(|&f| surface.triangles[f as usize])
+            .collect();
+        at.sort_unstable();
+        at.dedup();
+        let wider = |&v: &u32| match owner[v as usize] {
+            Some(source) => (self.reach[source as usize] * FURTHER).max(self.reach[v as usize]),
+            None => self.first,
+        };
+        let reach: Vec<f64> = at.iter().map(wider).collect();
+        for (v, reach) in at.into_iter().zip(reach) {
+            self.reach[v as usize] = reach;
+        }
+    }
+
+    /// The vertices within reach of a tangle, along the edges at rest.
+    fn freed(&self, surface: &Surface) -> Vec<bool> {
+        let (left, _) = self.spread(surface);
+        left.iter().map(|l| *l > 0.0).collect()
+    }
+
+    /// How much of its reach is left at each vertex of the tangled one that reaches furthest beyond it, and which
+    /// that is.
+    fn spread(&self, surface: &Surface) -> (Vec<f64>, Vec<Option<u32>>) {
+        let mut left = self.reach.clone();
+        let own = (0..).zip(&left).map(|(v, r)| (*r > 0.0).then_some(v));
+        let mut owner: Vec<Option<u32>> = own.collect();
+        // Lengths are not negative, so their bits are in order.
+        let entry = |left: f64, v: u32| (left.to_bits(), Reverse(v));
+        let sources = (0..).zip(&left).filter(|(_, r)| **r > 0.0);
+        let mut queue: BinaryHeap<_> = sources.map(|(v, r)| entry(*r, v)).collect();
+        while let Some((bits, Reverse(v))) = queue.pop() {
+            let here = f64::from_bits(bits);
+            if left[v as usize] > here {
+                continue;
+            }
+            for &n in &self.neighbors[v as usize] {
+                let way = surface.positions[n as usize] - surface.positions[v as usize];
+                let there = here - way.norm();
+                if there > left[n as usize] {
+                    left[n as usize] = there;
+                    owner[n as usize] = owner[v as usize];
+                    queue.push(entry(there, n));
+                }
+            }
+        }
+        (left, owner)
+    }
+}
