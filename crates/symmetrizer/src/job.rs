@@ -17,7 +17,7 @@ use crate::deform::{Igarashi, Stiffness};
 use crate::detect::{DetectParams, Detection, Group, detect, detect_in_plane};
 use crate::error::Result;
 use crate::job::arranged::Arranged;
-use crate::optimize::orbit::orbits;
+use crate::optimize::orbit::{Goal, orbits};
 use crate::optimize::outcome::mirrors;
 use crate::optimize::schedule::Settings;
 use crate::optimize::{Optimized, Outcome, optimize};
@@ -61,6 +61,8 @@ pub struct Symmetrized {
     pub after: Option<Detected>,
     /// The bend that was found in the input, whatever was made of it.
     pub bend: Option<Bent>,
+    /// What was made exact by orbits, its motions as they are exact, working coordinates of the input.
+    pub goals: Vec<Goal>,
     /// The planes by which `report` measures asymmetry before and after, working coordinates.
     pub planes: [Plane; 2],
     /// Everything in figures.
@@ -225,6 +227,7 @@ fn made(
         before,
         after: None,
         bend: bent,
+        goals: Vec::new(),
         planes: [measured.plane; 2],
         report,
     };
@@ -477,6 +480,7 @@ impl Symmetrized {
             })
         })?;
         self.report.result = Some(result);
+        self.goals = done.goals;
         self.after = Some(after);
         Ok(())
     }

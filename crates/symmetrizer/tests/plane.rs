@@ -248,18 +248,14 @@ fn turns_are_found_and_made_exact() {
             return;
         };
         let done = symmetrized(&drawing);
-        let [
-            Step::Orbits {
-                group: found,
-                residual,
-                ..
-            },
-        ] = done.job.report.steps.as_slice()
-        else {
+        let [Step::Orbits { goals, .. }] = done.job.report.steps.as_slice() else {
             panic!("{name}: {:?}", done.job.report.steps);
         };
-        assert_eq!(found, group, "{name}");
-        assert!(residual[1] <= 2e-5, "{name}: {residual:?}");
+        let [goal] = goals.as_slice() else {
+            panic!("{name}: {goals:?}");
+        };
+        assert_eq!(goal.name, group, "{name}");
+        assert!(goal.residual[1] <= 2e-4, "{name}: {:?}", goal.residual);
         let all = done.job.before.symmetries().iter();
         let mirrors = all.filter(|s| s.q_from_p.is_improper()).count();
         assert!((mirrors > 0) == (lines > 0), "{name}: {mirrors} lines");

@@ -4,7 +4,6 @@
 use crate::context::Context;
 use crate::detect::{Detection, detect};
 use crate::error::{Error, Result};
-use crate::field::trust::Verdict;
 use crate::geom::median;
 use crate::job::{Bent, Detected, bent};
 use crate::optimize::orbit::{Goal, orbits};
@@ -12,6 +11,7 @@ use crate::optimize::outcome::{mirrors, next_id};
 use crate::optimize::plan::goals;
 use crate::optimize::schedule::Settings;
 use crate::optimize::{Optimized, Outcome, optimize};
+use crate::patch::Symmetry;
 use crate::report::BendReport;
 use crate::shape::working::Working;
 use crate::straighten::StraightenParams;
@@ -30,10 +30,8 @@ pub(super) enum Plan {
     },
 }
 
-/// A mirror that is to be that of the whole shape holds for this share of the surface: of less it would make one
-/// part in the image of an unlike other.
-const MAIN: f64 = 0.75;
-/// Details that it holds for less of, copies of an element that stand any way, say, contradict it.
+/// A mirror that is to be that of the whole holds for this share of each detail at the least; copies of an element that
+/// stand any way, say, contradict it.
 const DETAIL: f64 = 0.5;
 /// It holds where residuals are no larger than this many times the median, or than this, fraction of L.
 const TYPICAL: f64 = 6.0;
@@ -59,24 +57,23 @@ pub(super) fn plan(found: &Detected, settings: Settings<'_>) -> Plan {
     }
 }
 
-/// Whether one mirror holds for about the whole of a shape, its `details` among it.
-fn has_main_mirror(detection: &Detection, details: &[Goal]) -> bool {
-    mirrors(detection).any(|s| {
-        let mut residuals: Vec<f64> = s.pairs.iter().map(|p| p.residual).collect();
-        let near = (TYPICAL * median(&mut residuals).unwrap_or(0.0)).max(SMALL);
-        let mut held = vec![false; detection.samples.list.len()];
-        for pair in s.pairs.iter().filter(|p| p.residual <= near) {
-            held[pair.sample as usize] = true;
-        }
-        let share = |samples: &mut dyn Iterator<Item = bool>| {
-            let (held, all) = samples.fold((0.0, 0.0), |(h, n), s| (h + f64::from(s), n + 1.0));
-            held / f64::max(all, 1.0)
-        };
-        let of_detail = |goal: &Goal| {
-            let samples = goal.places.iter().flatten();
-            share(&mut samples.map(|&i| held[i as usize]))
-        };
-        share(&mut held.iter().copied()) >= MAIN && details.iter().all(|g| of_detail(g) >= DETAIL)
+/// Whether the mirror that holds for most of a shape does not hold for its `details`, or there is none: one that holds
+/// as far as the tolerance, for what nearly is symmetric is to become so.
+fn is_contradicted(detection: &Detection, details: &[Goal]) -> bool {
+    let larger = |a: &&Symmetry, b: &&Symmetry| a.area_fraction.total_cmp(&b.area_fraction);
+    let Some(main) = mirrors(detection).max_by(larger) else {
+        return true;
+    };
+    let mut residuals: Vec<f64> = main.pairs.iter().map(|p| p.residual).collect();
+    let near = (TYPICAL * median(&mut residuals).unwrap_or(0.0)).max(SMALL);
+    let mut held = vec![false; detection.samples.list.len()];
+    for pair in main.pairs.iter().filter(|p| p.residual <= near) {
+        held[pair.sample as usize] = true;
+    }
+    details.iter().any(|goal| {
+        let samples = || goal.places.iter().flatten();
+        let inside = samples().filter(|&&i| held[i as usize]).count();
+        (inside as f64) < DETAIL * samples().count() as f64
     })
 }
 
@@ -106,36 +103,28 @@ pub(super) fn symmetrized(
         Plan::Orbits(goals) => return Ok(Arranged::plain(met(found, &goals, settings, ctx)?)),
         Plan::Mirror { details, all } => (details, all),
     };
+    let has_mirror = mirrors(&found.detection).next().is_some();
+    if exact && has_mirror {
+        let done = met(found, &details, settings, ctx)?;
+        if done.positions == found.working.surface.positions {
+            let outcome = Outcome::Converged;
+            return Ok(Arranged::plain(Optimized { outcome, ..done }));
+        }
+    }
+    let near = ctx.stage("detect", |ctx| {
+        detect(&found.working.surface, settings.detect, ctx)
+    })?;
+    if is_contradicted(&near, &details) {
+        return Ok(Arranged::plain(met(found, &all, settings, ctx)?));
+    }
+    let near = known(found, near);
     let detailed = met(found, &details, settings, ctx)?;
-    let unmoved = detailed.positions == found.working.surface.positions;
-    if exact && unmoved && mirrors(&found.detection).next().is_some() {
-        return Ok(Arranged::plain(Optimized {
-            outcome: Outcome::Converged,
-            ..detailed
-        }));
-    }
-    let near = ctx.stage("detect", |ctx| nearly(found, settings, ctx))?;
-    if mirrors(&near).next().is_none() {
-        return Ok(Arranged::plain(detailed));
-    }
     let state = state(found, near, &detailed);
     let looked = bent::unbend(&state, mean, params, settings, ctx)?;
-    let trusted = looked
-        .report
-        .as_ref()
-        .is_some_and(|bend| bend.verdict == Verdict::Accept);
-    let whole = trusted || all.is_empty() || has_main_mirror(&state.detection, &details);
-    let (mut done, merged) = match looked.done {
-        Some(done) => (done, false),
-        None if whole => (optimize(&state.working.surface, &state.detection, settings, ctx)?, true),
-        None => {
-            return Ok(Arranged {
-                done: met(found, &all, settings, ctx)?,
-                bend: looked.report,
-                bent: looked.bent,
-                merged: None,
-            });
-        }
+    let merged = looked.done.is_none();
+    let mut done = match looked.done {
+        Some(done) => done,
+        None => optimize(&state.working.surface, &state.detection, settings, ctx)?,
     };
     done.steps.splice(0..0, detailed.steps);
     done.next_id = done.next_id.max(detailed.next_id);
@@ -159,10 +148,8 @@ impl Arranged {
     }
 }
 
-/// The mirrors of the shape with patches as far as the tolerance: what nearly is symmetric is to become so. Those that
-/// `found` has are known by their ids, the others are added to it.
-fn nearly(found: &mut Detected, settings: Settings<'_>, ctx: &mut Context<'_>) -> Result<Detection> {
-    let mut near = detect(&found.working.surface, settings.detect, ctx)?;
+/// The mirrors `near`, those that `found` has under its ids; the others are added to it.
+fn known(found: &mut Detected, mut near: Detection) -> Detection {
     let mut next = next_id(&found.detection);
     let known = &mut found.detection;
     let mut taken = Vec::new();
@@ -179,7 +166,7 @@ fn nearly(found: &mut Detected, settings: Settings<'_>, ctx: &mut Context<'_>) -
             known.symmetries.push(s.clone());
         }
     }
-    Ok(near)
+    near
 }
 
 /// Mirrors that are one, distance in the shape's transformation space, fraction of L.

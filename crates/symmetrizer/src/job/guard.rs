@@ -14,6 +14,9 @@ use crate::shape::Mesh;
 /// is no mirror of the whole. Of shapes with one it is 0 to 1.3 %, of the dragon under the mirror of its front 28 %.
 const SPOILED: f64 = 0.05;
 
+/// Mean asymmetry, % of D, that may come and go with the triangulation.
+const WORSE: f64 = 0.01;
+
 /// What was `done`, where it is tangled with the form of the input.
 pub(super) fn mended(
     before: &Detected,
@@ -87,7 +90,7 @@ pub(super) fn worse(job: &Symmetrized) -> bool {
         .any(|s| matches!(s, Step::Bend { .. }));
     // Nor are groups, rows and copies, which need not have any.
     let measured = job.before.wall.is_none() && !posed && result.exact.is_empty();
-    measured && result.asymmetry.mean > job.report.input.shape.mean_asymmetry()
+    measured && result.asymmetry.mean > job.report.input.shape.mean_asymmetry() + WORSE
 }
 
 /// Leaves a mesh that would come out less symmetric as it was.
@@ -121,6 +124,7 @@ pub(super) fn leave(job: &mut Symmetrized, shape: Mesh) {
     job.report.outcome = Outcome::NoSymmetry;
     job.outcome = Outcome::NoSymmetry;
     job.after = None;
+    job.goals.clear();
     job.planes[1] = job.planes[0];
     job.shape = shape;
 }

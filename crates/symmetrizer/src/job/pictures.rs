@@ -17,6 +17,8 @@ use crate::apply::measure::per_vertex;
 use crate::cluster::Projection;
 use crate::error::Result;
 use crate::job::{Detected, Measured, Symmetrized};
+use crate::optimize::Step;
+use crate::optimize::orbit::apart;
 use crate::picture::{
     Angle, Canvas, Extent, Panel, ReportPicture, ScalarField, Sheet, categorical, render_sheet,
     strongest,
@@ -25,6 +27,8 @@ use crate::transform::{Class, Plane};
 
 /// Planes drawn in one picture at the most, the highest symmetries'.
 const PLANES: usize = 3;
+/// Goals named in a picture's figures at the most.
+const NAMED: usize = 4;
 /// Width and height of one view of a sheet, pixels.
 pub const VIEW_SIZE: [u32; 2] = [420, 440];
 /// The scale of colours reaches at least this far, % of D: less is the triangulation's, and a shape
@@ -32,6 +36,8 @@ pub const VIEW_SIZE: [u32; 2] = [420, 440];
 const PALE: f64 = 0.02;
 /// What colours stand for.
 const SCALE_LABEL: &str = "asymmetry, % of D";
+/// The same where orbits were drawn to their means.
+const ORBIT_LABEL: &str = "distance from the mean of all copies, % of D";
 
 /// The job in one picture, headed by `title`: input above result, coloured by asymmetry, with the
 /// planes and the votes; below them the bend that was found. Where no symmetry was found, the input's
@@ -61,7 +67,7 @@ fn states(job: &Symmetrized, title: &str) -> Canvas {
     let votes = [before, after].map(|state| Votes::new(state, 0, before, &projection));
     let axes = common_axes(&votes, bandwidth);
     let colors = [(before, job.planes[0]), (after, job.planes[1])]
-        .map(|(d, plane)| per_vertex(&d.working.surface, d.diagonal, &plane));
+        .map(|(state, plane)| colored(job, state, &plane));
     let planes = [before, after].map(colored_planes);
     let surfaces = [before, after].map(|d| &d.working.surface);
     let panel = |k: usize| Panel {
@@ -77,9 +83,29 @@ fn states(job: &Symmetrized, title: &str) -> Canvas {
         after: panel(1),
         triangles: &surfaces[0].triangles,
         scale_max: Some(strongest(colors.iter().map(Vec::as_slice)).max(PALE)),
-        scale_label: SCALE_LABEL,
+        scale_label: match job.goals.is_empty() {
+            true => SCALE_LABEL,
+            false => ORBIT_LABEL,
+        },
     };
     page.canvas()
+}
+
+/// What is to be seen on each vertex of a state: how far it is from its mirror image, or from the mean of its copies,
+/// % of D.
+fn colored(job: &Symmetrized, state: &Detected, plane: &Plane) -> Vec<f64> {
+    let surface = &state.working.surface;
+    if job.goals.is_empty() {
+        return per_vertex(surface, state.diagonal, plane);
+    }
+    // The goals' places are samples of the input, which ride on its surface.
+    let mut samples = job.before.detection.samples.clone();
+    for s in &mut samples.list {
+        s.position = surface.point(&s.at);
+        s.normal = surface.normal(&s.at);
+    }
+    let apart = apart(surface, &samples, &job.goals).into_iter();
+    apart.map(|d| 100.0 * d / state.diagonal).collect()
 }
 
 /// Views of `found` with the planes of its symmetries.
@@ -145,6 +171,18 @@ fn figures(job: &Symmetrized) -> String {
     else {
         return String::new();
     };
+    let goals = job.report.steps.iter().find_map(|step| match step {
+        Step::Orbits { goals, .. } if !job.goals.is_empty() => Some(goals),
+        _ => None,
+    });
+    if let Some(goals) = goals {
+        let kept = goals.iter().filter(|g| g.kept).take(NAMED);
+        let lines = kept.map(|g| {
+            let [before, after] = g.residual.map(|r| 100.0 * r);
+            format!("{}: {before:.3} → {after:.3} % of L apart", g.name)
+        });
+        return lines.collect::<Vec<_>>().join("   ·   ");
+    }
     let after = &result.asymmetry;
     format!(
         "mean asymmetry {:.2} → {:.2} % of D   ·   99th percentile {:.1} → {:.1} %   ·   largest {:.1} → {:.1} %",

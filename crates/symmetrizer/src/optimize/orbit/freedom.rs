@@ -82,7 +82,11 @@ impl Goal {
         let Some(x) = equations.solution() else {
             return self.clone();
         };
-        let twist = |i: usize| moved_by(&x.fixed_rows::<6>(6 * i).into_owned());
+        self.moved(|i| moved_by(&x.fixed_rows::<6>(6 * i).into_owned()))
+    }
+
+    /// The goal with its motions moved by the motion of each twist.
+    fn moved(&self, twist: impl Fn(usize) -> Isometry) -> Self {
         let orbit = match &self.orbit {
             Orbit::Group(elements) => {
                 Orbit::Group(elements.iter().map(|g| carried(&twist(0), g)).collect())
@@ -138,7 +142,7 @@ impl Goal {
             Orbit::Free(_) => [Some((j, at(y, n))), Some((i, -at(x, &seen)))],
             Orbit::Regular(Pattern::Grid(grid)) => {
                 let width = grid.counts[0];
-                let steps = |k: usize| (k % width) as f64 - 0.0;
+                let steps = |k: usize| (k % width) as f64;
                 let along = steps(j) - steps(i);
                 let across = (j / width) as f64 - (i / width) as f64;
                 let shift = |by: f64| row(Vector::zeros(), n * by);
@@ -214,4 +218,148 @@ fn moved_by(twist: &Vector6<f64>) -> Isometry {
 /// `t` carried along by `e`.
 fn carried(e: &Isometry, t: &Isometry) -> Isometry {
     e.after(t).after(&e.inverse())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::group::{Grid, Row};
+
+    fn turn(axis: Vector, angle: f64, translation: Vector) -> Isometry {
+        Isometry {
+            linear: exp_rotation(&(axis.normalize() * angle)),
+            translation,
+        }
+    }
+
+    fn goal(orbit: Orbit, places: usize) -> Goal {
+        Goal {
+            name: String::new(),
+            symmetries: Vec::new(),
+            orbit,
+            places: vec![Vec::new(); places],
+            area_fraction: 1.0,
+            reach: 0.1,
+            ambient: Ambient::Space,
+            is_met: false,
+        }
+    }
+
+    fn row(step: Isometry, kind: Kind, places: Option<usize>) -> Goal {
+        let count = 4;
+        let row = Row {
+            step,
+            kind,
+            count,
+            places,
+            measured: Vec::new(),
+        };
+        goal(Orbit::Regular(Pattern::Row(row)), count)
+    }
+
+    fn goals() -> Vec<Goal> {
+        let shift = Vector::new(0.3, -0.1, 0.2);
+        let free = turn(Vector::new(1.0, 2.0, -1.0), 0.7, shift);
+        let ring = turn(Vector::z(), std::f64::consts::TAU / 7.0, Vector::zeros());
+        let along = |v: Vector| turn(Vector::z(), 0.0, v);
+        let grid = Grid {
+            steps: [along(shift), along(Vector::new(-0.1, 0.4, 0.0))],
+            counts: [3, 2],
+        };
+        let plane = crate::transform::Plane {
+            normal: Vector::new(0.6, 0.0, 0.8),
+            offset: 0.1,
+        };
+        vec![
+            goal(Orbit::Group(vec![ring, Isometry::mirror(&plane)]), 1),
+            goal(Orbit::Free(vec![Isometry::identity(), free, ring]), 3),
+            goal(Orbit::Regular(Pattern::Grid(grid)), 6),
+            row(along(shift), Kind::Translation, None),
+            row(ring, Kind::Rotation, Some(7)),
+            row(free, Kind::Screw, None),
+        ]
+    }
+
+    /// The image of a link of a goal, found again by its places or, of a group, its index.
+    fn image(goal: &Goal, from: usize, k: usize, x: &Point) -> Point {
+        goal.links(0)[from][k].t.apply(x)
+    }
+
+    #[test]
+    fn rows_are_derivatives_of_images() {
+        let (x, n) = (Point::new(0.4, -0.3, 0.6), Vector::new(0.5, 0.5, -0.2).normalize());
+        let h = 1e-6;
+        for (which, goal) in goals().iter().enumerate() {
+            for (from, links) in goal.links(0).iter().enumerate() {
+                for (k, link) in links.iter().enumerate() {
+                    let contact = Contact {
+                        x,
+                        y: link.t.apply(&x),
+                        n,
+                        gap: 0.0,
+                        weight: 1.0,
+                    };
+                    let rows = goal.rows(link, &contact);
+                    for twist in 0..goal.twists() {
+                        for c in 0..6 {
+                            let by = |h: f64| {
+                                let mut unit = Vector6::zeros();
+                                unit[c] = h;
+                                let bent = goal.moved(|i| match i == twist {
+                                    true => moved_by(&unit),
+                                    false => Isometry::identity(),
+                                });
+                                n.dot(&image(&bent, from, k, &x).coords)
+                            };
+                            let measured = (by(h) - by(-h)) / (2.0 * h);
+                            let of = rows.iter().flatten().filter(|(i, _)| *i == twist);
+                            let row: f64 = of.map(|(_, row)| row[c]).sum();
+                            let free = matches!(goal.orbit, Orbit::Free(_)) && from != 0;
+                            let kept = matches!(&goal.orbit, Orbit::Regular(p) if {
+                                let first = matches!(p, Pattern::Grid(_));
+                                first || matches!(p, Pattern::Row(r) if r.kind == Kind::Translation)
+                            });
+                            if kept && c < 3 || free {
+                                // Translations do not turn; free copies are seen from the first one.
+                                continue;
+                            }
+                            assert!((measured - row).abs() < 1e-6, "{which} {from} {k} {twist} {c}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_fit_finds_the_motions_back_and_keeps_groups_exact() {
+        let ring = turn(Vector::z(), std::f64::consts::TAU / 5.0, Vector::zeros());
+        let powers: Vec<Isometry> = (1..5)
+            .map(|k| (1..k).fold(ring, |t, _| ring.after(&t)))
+            .collect();
+        let truth = goal(Orbit::Group(powers), 1);
+        let off = turn(Vector::new(1.0, 0.3, 0.0), 0.02, Vector::new(0.01, -0.02, 0.0));
+        let mut found = truth.moved(|_| off);
+        for _ in 0..6 {
+            let mut equations = Equations::new(&found);
+            for i in 0..60 {
+                let t = f64::from(i);
+                let x = Point::new((3.1 * t).sin(), (1.7 * t).cos(), (0.9 * t + 0.3).sin());
+                let n = Vector::new((2.3 * t).cos(), (4.1 * t).sin(), (1.3 * t).cos()).normalize();
+                for (k, link) in found.links(0)[0].iter().enumerate() {
+                    let y = link.t.apply(&x);
+                    let gap = n.dot(&(image(&truth, 0, k, &x) - y));
+                    let contact = Contact { x, y, n, gap, weight: 1.0 };
+                    equations.add(&found, link, &contact);
+                }
+            }
+            found = found.adjusted(&equations);
+        }
+        let elements = found.elements();
+        for (a, b) in elements.iter().zip(truth.elements()) {
+            assert!((a.linear - b.linear).norm() < 1e-6 && (a.translation - b.translation).norm() < 1e-6);
+        }
+        let square = elements[0].after(&elements[0]);
+        assert!((square.linear - elements[1].linear).norm() < 1e-12);
+    }
 }

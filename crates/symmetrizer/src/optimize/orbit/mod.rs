@@ -15,4 +15,5 @@ pub mod schedule;
 mod slides;
 
 pub use goal::{Goal, Link, Orbit};
+pub use rounds::apart;
 pub use schedule::orbits;

@@ -14,6 +14,7 @@ use crate::optimize::orbit::ground::{Member, members};
 use crate::optimize::orbit::means::{Means, Scene};
 use crate::optimize::untangle::untangle;
 use crate::sample::Samples;
+use crate::shape::inverted::inverted_faces;
 use crate::shape::{ClosestPoint, Surface};
 
 /// Fits of the motions before anything moves.
@@ -26,6 +27,8 @@ const REFINE: f64 = 0.7;
 const STALLED: f64 = 0.98;
 /// The share of their drift along the surface that vertices go back in a round.
 const SLIDE: f64 = 0.5;
+/// Attempts at keeping faces from being turned over.
+const UNFOLDINGS: usize = 4;
 /// Distances that are small enough, fraction of L.
 const DONE: f64 = 1e-6;
 /// A finer surface is carried along by a copy of about this many faces.
@@ -65,6 +68,15 @@ impl Fitted {
             goals: cloth.goals,
         })
     }
+}
+
+/// For each vertex of `surface` how far it is from the mean of its copies under the `goals`, fitted, fraction of L.
+pub fn apart(surface: &Surface, samples: &Samples, goals: &[Goal]) -> Vec<f64> {
+    let mut cloth = Cloth::new(surface, samples, goals);
+    for _ in 0..FITS {
+        cloth.refit();
+    }
+    cloth.means.halves.iter().map(|d| d.abs()).collect()
 }
 
 /// What was done.
@@ -163,8 +175,8 @@ struct Cloth {
     now: Surface,
     closest: ClosestPoint,
     means: Means,
-    /// Where the vertices began.
-    start: Vec<Point>,
+    /// The surface as it was.
+    start: Surface,
     /// Smoothing length of the next round.
     length: f64,
     round: usize,
@@ -186,7 +198,7 @@ impl Cloth {
             means: Means::at(&scene, goals, 0),
             goals: goals.to_vec(),
             now: surface.clone(),
-            start: surface.positions.clone(),
+            start: surface.clone(),
             members,
             closest,
             length: LENGTHS[0],
@@ -228,7 +240,7 @@ impl Cloth {
         let next = self.now.with_positions(moved.collect());
         let next = next.with_positions(self.without_drift(&next));
         // Round by round, so that what would cross goes back by one round only.
-        let (next, _) = untangle(&self.now, next);
+        let (next, _) = untangle(&self.now, self.unfolded(next));
         let (was, goals) = (self.now.clone(), self.goals.clone());
         let before = means.distance();
         self.round += 1;
@@ -246,11 +258,27 @@ impl Cloth {
     /// The vertices of `next` slid over it towards where they began: along the surface nothing is to be gained.
     fn without_drift(&self, next: &Surface) -> Vec<Point> {
         let all = next.positions.iter().zip(&next.vertex_normals);
-        let slid = all.zip(&self.start).map(|((x, n), start)| {
+        let slid = all.zip(&self.start.positions).map(|((x, n), start)| {
             let back = start - x;
             x + (back - n * n.dot(&back)) * SLIDE
         });
         slid.collect()
+    }
+
+    /// `next` with the corners of faces that would be turned over where they are now.
+    fn unfolded(&self, mut next: Surface) -> Surface {
+        for _ in 0..UNFOLDINGS {
+            let faces = inverted_faces(&self.start, &next);
+            if faces.is_empty() {
+                break;
+            }
+            let mut positions = next.positions.clone();
+            for v in faces.iter().flat_map(|&f| next.triangles[f as usize]) {
+                positions[v as usize] = self.now.positions[v as usize];
+            }
+            next = next.with_positions(positions);
+        }
+        next
     }
 
     fn rms(&self) -> Vec<f64> {

@@ -24,6 +24,9 @@ const EXACT: f64 = 5e-5;
 /// Goals that find fewer of their copies than this share are let be: short extrusions, of which a shift leaves little,
 /// and what only begins to come again.
 const HELD: f64 = 0.5;
+/// A goal that keeps this share of its residual gains nothing worth the change: it is as exact as its triangles let it
+/// be.
+const GAINED: f64 = 0.9;
 /// Goals share ground where this share of the smaller one's samples is in both.
 const SHARED: f64 = 0.2;
 
@@ -43,13 +46,16 @@ pub fn orbits(
     let mut left = Vec::new();
     loop {
         let made = made(surface, detection, &wanted, settings, ctx)?;
-        match excluded(&wanted, &made) {
+        match given_up(&wanted, &made) {
             Some((loser, winner)) if made.outcome == Outcome::Converged => {
                 let goal = wanted.remove(loser);
-                ctx.warn(format!(
-                    "{} cannot be made exact together with {winner}, which holds for more of the shape: it is left",
-                    goal.name
-                ));
+                if let Some(winner) = winner {
+                    ctx.warn(format!(
+                        "{} cannot be made exact together with {winner}, which holds for more of the shape: it is \
+                         left",
+                        goal.name
+                    ));
+                }
                 let residual = made.before.rms[loser];
                 left.push(Met::left(&goal, [residual; 2], made.before.held[loser]));
             }
@@ -121,15 +127,20 @@ fn made(
     })
 }
 
-/// A goal that is not met, and the name of one that was wanted more and lies on the same ground.
-fn excluded(goals: &[Goal], made: &Made) -> Option<(usize, String)> {
-    (0..goals.len()).rev().find_map(|k| {
-        let after = made.drawn.rms[k];
-        if made.before.goals[k].is_met || after <= (UNMET * made.before.rms[k]).max(FLOOR) {
-            return None;
+/// A goal to give up, the last one first: it gains nothing, or it is not met and one that was wanted more, which has
+/// this name, lies on the same ground.
+fn given_up(goals: &[Goal], made: &Made) -> Option<(usize, Option<String>)> {
+    let pursued = (0..goals.len()).rev().filter(|&k| !made.before.goals[k].is_met);
+    pursued.into_iter().find_map(|k| {
+        let (before, after) = (made.before.rms[k], made.drawn.rms[k]);
+        let mut winners = goals[..k].iter();
+        let winner = winners.find(|g| shared(g, &goals[k]) >= SHARED);
+        let name = winner.map(|g| g.name.clone());
+        if after > GAINED * before {
+            return Some((k, name.filter(|_| after > FLOOR)));
         }
-        let winner = goals[..k].iter().find(|g| shared(g, &goals[k]) >= SHARED)?;
-        Some((k, winner.name.clone()))
+        let unmet = after > (UNMET * before).max(FLOOR);
+        (unmet && name.is_some()).then_some((k, name))
     })
 }
 

@@ -1,0 +1,221 @@
+//! What a run must reach on shapes whose symmetry is more than one mirror, against their noise-free forms.
+
+mod common;
+
+use common::{data, load, placed};
+use symmetrizer::geom::{Matrix3, Point, Vector};
+use symmetrizer::optimize::{Met, Outcome, Step};
+use symmetrizer::report::ExactReport;
+use symmetrizer::shape::working::Working;
+use symmetrizer::shape::{ClosestPoint, Mesh};
+use symmetrizer::transform::Isometry;
+use symmetrizer::{Context, Params, Symmetrized, symmetrize};
+
+fn run(mesh: &Mesh, params: &Params) -> Symmetrized {
+    symmetrize(mesh, params, &mut Context::new(0)).expect("a run")
+}
+
+fn goals(done: &Symmetrized) -> &[Met] {
+    let goals = done.report.steps.iter().find_map(|step| match step {
+        Step::Orbits { goals, .. } => Some(goals.as_slice()),
+        _ => None,
+    });
+    goals.expect("orbits")
+}
+
+fn exact<'a>(done: &'a Symmetrized, name: &str) -> &'a ExactReport {
+    let result = done.report.result.as_ref().expect("a result");
+    let found = result.exact.iter().find(|e| e.name == name);
+    found.expect("what was made exact is in the report")
+}
+
+fn isometry(m: &[[f64; 4]; 4]) -> Isometry {
+    Isometry {
+        linear: Matrix3::from_fn(|r, c| m[r][c]),
+        translation: Vector::from_fn(|r, _| m[r][3]),
+    }
+}
+
+/// rms distance of the images of the vertices of `mesh` from its surface under all `motions`, area-weighted, % of L.
+fn residual(mesh: &Mesh, motions: &[Isometry]) -> f64 {
+    let working = Working::new(mesh).expect("a usable mesh");
+    let surface = &working.surface;
+    let closest = ClosestPoint::new(surface);
+    let mut sum = 0.0;
+    for t in motions {
+        for (x, a) in surface.positions.iter().zip(&surface.vertex_areas) {
+            let image = t.apply(&working.normalization.to_document(x));
+            let image = working.normalization.to_working(&image);
+            let hit = closest.nearest(&image, f64::INFINITY).expect("a surface");
+            sum += a * hit.distance * hit.distance;
+        }
+    }
+    100.0 * (sum / surface.area() / motions.len() as f64).sqrt()
+}
+
+/// The shape of a truth file without its noise, in the file's coordinates, and the motion from rest to file.
+fn truth(name: &str, mesh: &Mesh) -> (Mesh, serde_json::Value) {
+    let path = data(name).expect("beside the model").with_extension("truth.json");
+    let text = std::fs::read_to_string(path).expect("a truth file");
+    let truth: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let number = |v: &serde_json::Value| v.as_f64().expect("a number");
+    let place = |v: &serde_json::Value| {
+        let x: [f64; 3] = std::array::from_fn(|c| number(&v[c]));
+        let row = |r: usize| {
+            let p = &truth["placement"][r];
+            (0..3).map(|c| number(&p[c]) * x[c]).sum::<f64>() + number(&p[3])
+        };
+        Point::new(row(0), row(1), row(2))
+    };
+    let rest = truth["rest"].as_array().expect("vertices").iter().map(place);
+    let clean = Mesh {
+        positions: rest.collect(),
+        ..mesh.clone()
+    };
+    (clean, truth)
+}
+
+/// rms distance of the vertices from those of the shape without noise, best rigidly placed, % of the diagonal.
+fn to_clean(mesh: &Mesh, clean: &Mesh) -> f64 {
+    let pairs: Vec<_> = mesh.positions.iter().zip(&clean.positions).collect();
+    let pairs: Vec<symmetrizer::transform::Correspondence> = pairs
+        .iter()
+        .map(|(p, q)| symmetrizer::transform::Correspondence { p: **p, q: **q, weight: 1.0 })
+        .collect();
+    let ambient = symmetrizer::transform::Ambient::Space;
+    let fit = symmetrizer::transform::optimal::optimal_rigid(&pairs, None, ambient).expect("a motion");
+    let sum: f64 = pairs.iter().map(|c| (fit.isometry.apply(&c.p) - c.q).norm_squared()).sum();
+    100.0 * (sum / pairs.len() as f64).sqrt() / clean.diagonal()
+}
+
+/// The products of a group's elements are elements, to rounding.
+fn is_closed(elements: &[Isometry], size: f64) -> bool {
+    let near = |a: &Isometry, b: &Isometry| {
+        (a.linear - b.linear).norm() < 1e-9 && (a.translation - b.translation).norm() < 1e-9 * size
+    };
+    let all: Vec<Isometry> = elements.iter().copied().chain([Isometry::identity()]).collect();
+    let product = |a: &Isometry, b: &Isometry| all.iter().any(|c| near(&a.after(b), c));
+    all.iter().all(|a| all.iter().all(|b| product(a, b)))
+}
+
+#[test]
+fn noisy_groups_are_made_exact_down_to_their_tessellation() {
+    for (name, group, order) in [
+        ("truth/rot5_chiral.ply", "C5", 5),
+        ("truth/three_planes_superellipsoid.ply", "D2h", 8),
+    ] {
+        let Some(path) = data(name) else { return };
+        let mesh = load(&path);
+        let (clean, _) = truth(name, &mesh);
+        let done = run(&mesh, &Params::default());
+        assert_eq!(done.outcome, Outcome::Converged, "{name}");
+        let [goal] = goals(&done) else {
+            panic!("{name}: {:?}", goals(&done));
+        };
+        assert_eq!((goal.name.as_str(), goal.order), (group, Some(order)), "{name}");
+        let elements: Vec<Isometry> = exact(&done, group).elements.iter().map(isometry).collect();
+        assert!(is_closed(&elements, mesh.diagonal()), "{name}");
+        let [before, after, floor] =
+            [&mesh, &done.shape, &clean].map(|shape| residual(shape, &elements));
+        assert!(
+            after <= f64::max(before / 8.0, 1.5 * floor),
+            "{name}: {before} -> {after}, floor {floor}"
+        );
+        let [was, is] = [&mesh, &done.shape].map(|shape| to_clean(shape, &clean));
+        assert!(is < 0.8 * was, "{name}: {was} -> {is} from the shape without noise");
+        let Step::Orbits { predicted, .. } = done.report.steps[0] else {
+            panic!("{name}");
+        };
+        let result = done.report.result.as_ref().expect("a result");
+        let moved = result.distortion.rms / 100.0 * done.before.diagonal;
+        assert!(moved <= 1.3 * predicted, "{name}: moved {moved}, {predicted} predicted");
+    }
+}
+
+#[test]
+fn a_row_of_copies_becomes_one_shape_at_even_steps() {
+    let name = "truth/row5_translation.ply";
+    let Some(path) = data(name) else { return };
+    let mesh = load(&path);
+    let (clean, _) = truth(name, &mesh);
+    let done = run(&mesh, &Params::default());
+    let row = goals(&done).first().expect("a goal");
+    assert_eq!((row.name.as_str(), row.order, row.kept), ("row 5", Some(5), true));
+    assert!(row.residual[1] < 0.4 * row.residual[0], "{:?}", row.residual);
+    let motions: Vec<Isometry> = exact(&done, "row 5").elements.iter().map(isometry).collect();
+    for (k, t) in motions.iter().enumerate() {
+        let step = motions[1].translation * k as f64;
+        assert!((t.translation - step).norm() < 1e-9 * mesh.diagonal());
+        assert!((t.linear - Matrix3::identity()).norm() < 1e-12);
+    }
+    let [was, is] = [&mesh, &done.shape].map(|shape| to_clean(shape, &clean));
+    assert!(is < 0.8 * was, "{was} -> {is}");
+}
+
+#[test]
+fn six_elements_are_made_congruent_where_they_stand() {
+    let name = "truth/design_six.obj";
+    let Some(path) = data(name) else { return };
+    let mesh = load(&path);
+    let done = run(&mesh, &Params::default());
+    let all = goals(&done).iter().find(|g| g.name == "6 copies");
+    let copies = all.expect("six copies");
+    assert!(copies.kept && copies.order == Some(6), "{copies:?}");
+    assert!(copies.residual[1] < 0.85 * copies.residual[0], "{:?}", copies.residual);
+    let result = done.report.result.as_ref().expect("a result");
+    assert_eq!(result.distortion.new_crossings, 0);
+    assert_eq!(result.distortion.inverted_faces, 0);
+    // Each stays where it is: no vertex moves by more than a small part of an element.
+    assert!(result.distortion.max < 0.6, "{}", result.distortion.max);
+    let mirrored = exact(&done, "6 copies").elements.iter();
+    assert_eq!(mirrored.filter(|m| isometry(m).is_improper()).count(), 3);
+}
+
+#[test]
+fn exact_shapes_are_not_touched() {
+    for (name, goal) in [
+        ("truth/vase_continuous.ply", "revolution"),
+        ("3d/bumpy_cube.obj", "Oh"),
+    ] {
+        let Some(path) = data(name) else { return };
+        let mesh = load(&path);
+        let done = run(&mesh, &Params::default());
+        assert_eq!(goals(&done)[0].name, goal, "{name}");
+        assert_eq!(done.shape.positions, mesh.positions, "{name}");
+        assert_eq!(done.outcome, Outcome::Converged, "{name}");
+    }
+}
+
+#[test]
+fn a_dented_vase_gets_its_mean_profile() {
+    let Some(path) = data("truth/vase_continuous.ply") else {
+        return;
+    };
+    let clean = load(&path);
+    let noisy = common::noisy(&clean, 0.002 * clean.diagonal(), 7);
+    let done = run(&noisy, &Params::default());
+    let goal = &goals(&done)[0];
+    assert_eq!(goal.name, "revolution");
+    assert!(goal.residual[1] < 0.4 * goal.residual[0], "{:?}", goal.residual);
+    let [was, is] = [&noisy, &done.shape].map(|shape| to_clean(shape, &clean));
+    assert!(is < 0.85 * was, "{was} -> {is}");
+}
+
+#[test]
+fn only_what_is_asked_for_is_made_exact() {
+    let name = "truth/three_planes_superellipsoid.ply";
+    let Some(path) = data(name) else { return };
+    let mesh = placed(&load(&path), Vector::new(0.3, 1.0, -0.4), 40.0, Vector::new(9.0, 5.0, 1.0));
+    let mut params = Params::default();
+    params.detect.kinds = vec![symmetrizer::detect::Want::Rotation];
+    params.optimize.max_symmetries = Some(1);
+    let done = run(&mesh, &params);
+    let [goal] = goals(&done) else {
+        panic!("{:?}", goals(&done));
+    };
+    let elements = &exact(&done, &goal.name).elements;
+    assert!(elements.iter().all(|m| !isometry(m).is_improper()), "{}", goal.name);
+    params.optimize.only = Some(vec![77]);
+    let error = symmetrize(&mesh, &params, &mut Context::new(0)).err().expect("an error");
+    assert!(error.to_string().contains("no symmetry 77"), "{error}");
+}
