@@ -203,7 +203,7 @@ fn made(
         }
     };
     let mut done = guard::mended(&before, done, ctx)?;
-    if merged && guard::spoiled(&done) {
+    if merged && guard::spoiled(&before, &done) {
         (merged, part) = (false, true);
         let again = guard::Again {
             before: &before,

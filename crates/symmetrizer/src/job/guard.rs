@@ -14,6 +14,9 @@ use crate::shape::Mesh;
 /// is no mirror of the whole. Of shapes with one it is 0 to 1.3 %, of the dragon under the mirror of its front 28 %.
 const SPOILED: f64 = 0.05;
 
+/// Share of the faces that may stay tangled.
+const TANGLED: f64 = 0.001;
+
 /// What was `done`, where it is tangled with the form of the input.
 pub(super) fn mended(
     before: &Detected,
@@ -26,18 +29,20 @@ pub(super) fn mended(
     let rest = &before.working.surface;
     let after = rest.with_positions(std::mem::take(&mut done.positions));
     let mended = ctx.stage("mend", |_| mend(rest, after))?;
-    if mended.share > 0.0 {
+    if mended.share > 0.0 || mended.left > 0 {
         done.steps.push(Step::Mend {
             share: mended.share,
+            left: mended.left,
         });
     }
     done.positions = mended.surface.positions;
     Ok(done)
 }
 
-/// Whether so much of what was `done` had to be mended that the whole is not to be had.
-pub(super) fn spoiled(done: &Optimized) -> bool {
-    let mended = |step: &Step| matches!(step, Step::Mend { share } if *share > SPOILED);
+/// Whether so much of what was `done` to `before` had to be mended, or could not be, that the whole is not to be had.
+pub(super) fn spoiled(before: &Detected, done: &Optimized) -> bool {
+    let most = (TANGLED * before.working.surface.triangles.len() as f64) as usize;
+    let mended = |step: &Step| matches!(step, Step::Mend { share, left } if *share > SPOILED || *left > most);
     done.steps.iter().any(mended)
 }
 
