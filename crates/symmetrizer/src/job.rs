@@ -248,7 +248,7 @@ fn made(
             let done = again.part((&mut job.report.bend, &mut job.bend), ctx)?;
             job.conclude(done, mesh, &detect, ctx)?;
         }
-        guard::give_up_on_worse(&mut job, mesh, ctx);
+        guard::give_up_on_worse(&mut job, mesh, part, &detect, ctx)?;
         plane::give_up_on_worse(&mut job, ctx);
         guard::say_part(&job, part, ctx);
     }

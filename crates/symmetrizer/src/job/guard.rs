@@ -1,6 +1,7 @@
 //! What a run must not do: leave a shape tangled, or less symmetric than it was.
 
 use crate::context::Context;
+use crate::detect::DetectParams;
 use crate::error::Result;
 use crate::job::bent::{Bent, unbend_part};
 use crate::job::{Detected, Symmetrized};
@@ -13,6 +14,9 @@ use crate::shape::Mesh;
 /// Share of the area on which a tangled result had to be given back the form of the input, above which its mirror
 /// is no mirror of the whole. Of shapes with one it is 0 to 1.3 %, of the dragon under the mirror of its front 28 %.
 const SPOILED: f64 = 0.05;
+
+/// Mean asymmetry, % of D, that may come and go with the triangulation.
+const SLIGHTLY: f64 = 0.01;
 
 /// Share of the faces that may stay tangled.
 const TANGLED: f64 = 0.001;
@@ -94,37 +98,40 @@ pub(super) fn worse(job: &Symmetrized) -> bool {
     measured && result.asymmetry.mean > job.report.input.shape.mean_asymmetry()
 }
 
-/// Leaves a mesh that would come out less symmetric as it was.
-pub(super) fn give_up_on_worse(job: &mut Symmetrized, mesh: &Mesh, ctx: &mut Context<'_>) {
+/// Leaves a `mesh` that would come out less symmetric as it was; says so where it is more than comes and goes with
+/// the triangulation, or where it is only a `part` that has a symmetry.
+pub(super) fn give_up_on_worse(
+    job: &mut Symmetrized,
+    mesh: &Mesh,
+    part: bool,
+    detect: &DetectParams,
+    ctx: &mut Context<'_>,
+) -> Result<()> {
     let Some(result) = job.report.result.as_ref().filter(|_| worse(job)) else {
-        return;
+        return Ok(());
     };
-    ctx.warn(format!(
-        "the shape is left as it is: made symmetric in a part, as a whole it would be less so ({:.3} % of D from \
-         symmetric, was {:.3})",
+    let (was, mean) = (
+        job.report.input.shape.mean_asymmetry(),
         result.asymmetry.mean,
-        job.report.input.shape.mean_asymmetry()
-    ));
-    leave(job, mesh.clone());
+    );
+    if part || mean > 1.05 * was + SLIGHTLY {
+        ctx.warn(format!(
+            "the shape is left as it is: with what is symmetric of it made so, as a whole it would be less so ({mean:.3} \
+             % of D from symmetric, was {was:.3})"
+        ));
+    }
+    if let Some(bend) = &mut job.report.bend {
+        bend.removed = 0.0;
+    }
+    let before = &job.before;
+    let surface = &before.working.surface;
+    let unmoved = Optimized::unmoved(surface, &before.detection, Outcome::Converged);
+    job.conclude(unmoved, mesh, detect, ctx)
 }
 
 /// Says that the rest was left, where a `part` was made symmetric and is still.
 pub(super) fn say_part(job: &Symmetrized, part: bool, ctx: &mut Context<'_>) {
-    if part && job.after.is_some() {
+    if part && !job.report.steps.is_empty() {
         ctx.warn("only a part is made symmetric: the rest has no counterpart that fits");
     }
-}
-
-/// Takes the result of a `job` back: its shape is the input's, `shape`.
-pub(super) fn leave(job: &mut Symmetrized, shape: Mesh) {
-    if let Some(bend) = &mut job.report.bend {
-        bend.removed = 0.0;
-    }
-    job.report.result = None;
-    job.report.steps.clear();
-    job.report.outcome = Outcome::NoSymmetry;
-    job.outcome = Outcome::NoSymmetry;
-    job.after = None;
-    job.planes[1] = job.planes[0];
-    job.shape = shape;
 }
