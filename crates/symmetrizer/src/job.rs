@@ -198,7 +198,7 @@ fn made(
     } = arranged;
     let mut part = false;
     let mut done = guard::mended(&before, done, ctx)?;
-    if let Some(state) = merged.take_if(|_| guard::spoiled(&done)) {
+    if let Some(state) = merged.take_if(|_| guard::spoiled(&before, &done)) {
         part = true;
         let again = guard::Again {
             before: &state,
@@ -248,7 +248,7 @@ fn made(
             let done = again.part((&mut job.report.bend, &mut job.bend), ctx)?;
             job.conclude(done, mesh, &detect, ctx)?;
         }
-        guard::give_up_on_worse(&mut job, mesh, ctx);
+        guard::give_up_on_worse(&mut job, mesh, part, &detect, ctx)?;
         plane::give_up_on_worse(&mut job, ctx);
         guard::say_part(&job, part, ctx);
     }

@@ -180,12 +180,10 @@ fn done(step: &Step) -> String {
             rounds,
             ..
         } => orbits::done(goals, *steps, *rounds),
-        Step::Mend { share } => {
-            format!(
-                "mend         {:.1} % of the area has its own form again",
-                100.0 * share
-            )
-        }
+        Step::Mend { share, left } => format!(
+            "mended {:.1} % of the area, which has its own form again; {left} faces stay tangled",
+            100.0 * share
+        ),
         Step::Finish {
             rounds,
             asymmetry,

@@ -1,5 +1,4 @@
-//! A part of a deformed surface regains the form that it has at rest, and stays where the rest of the
-//! surface took it.
+//! A part of a deformed surface regains the form that it has at rest, where the rest of the surface took it.
 
 use crate::deform::carry::motions;
 use crate::deform::failure;
@@ -10,36 +9,45 @@ use crate::error::Result;
 use crate::geom::{Matrix3, Point};
 use crate::shape::Surface;
 
-/// Positions of `now`, a deformed state of `rest`, with the vertices that are `freed` moved to where the edges
-/// there are those of `rest`, turned as the surface around has turned (harmonic rotations, then their
-/// Poisson equation). All others stay, as do loose parts that are freed as a whole: nothing holds them.
+/// Positions of `now`, a deformed state of `rest`, with the form at rest where a vertex is in the `core`: edges
+/// there are those of `rest`, turned as the surface around has turned (harmonic rotations). What is `freed`
+/// besides makes room: it keeps the form that it has now, and moves (Poisson's equation for both, as in Yu et al.
+/// 2004). All else stays, as do loose parts that are freed as a whole: nothing holds them.
 ///
 /// # Errors
 /// [`crate::Error::Numerical`].
-pub fn regain(rest: &Surface, now: &Surface, freed: &[bool]) -> Result<Vec<Point>> {
+pub fn regain(rest: &Surface, now: &Surface, core: &[bool], freed: &[bool]) -> Result<Vec<Point>> {
     let mut positions = now.positions.clone();
     let patch = Patch::new(rest, freed);
     if !patch.held.contains(&false) {
         return Ok(positions);
     }
     let motions = motions(rest, now);
-    let known: Vec<Option<Matrix3>> = patch
-        .vertices
-        .iter()
-        .zip(&patch.held)
-        .map(|(&v, held)| held.then(|| motions[v as usize].rotation))
+    let vertices = patch.vertices.iter().zip(&patch.held);
+    let known: Vec<Option<Matrix3>> = vertices
+        .map(|(&v, held)| {
+            let kept = *held || !core[v as usize];
+            kept.then(|| motions[v as usize].rotation)
+        })
         .collect();
     let rotations = rotations_inside(&patch.rest, &known)?;
-    let mut system = EdgeSystem::new(&patch.rest, &edge_weights(&patch.rest, None))
-        .map_err(|e| failure(e, 0))?;
+    let weights = edge_weights(&patch.rest, None);
+    let mut system = EdgeSystem::new(&patch.rest, &weights).map_err(|e| failure(e, 0))?;
     system.set_fixed(patch.held.clone());
     let from: Vec<Point> = patch
         .vertices
         .iter()
         .map(|&v| positions[v as usize])
         .collect();
+    let at_rest = &patch.rest.positions;
+    let wanted = |_, i: usize, j: usize| {
+        if known[i].is_some() && known[j].is_some() {
+            return from[i] - from[j];
+        }
+        0.5 * ((rotations[i] + rotations[j]) * (at_rest[i] - at_rest[j]))
+    };
     let ways = system
-        .ways(&patch.rest, &rotations, &[], 1.0, &from)
+        .ways_for(&patch.rest, wanted, &[], 1.0, &from)
         .map_err(|e| failure(e, 0))?;
     for (&v, way) in patch.vertices.iter().zip(&ways) {
         positions[v as usize] += way;

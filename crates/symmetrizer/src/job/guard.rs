@@ -1,6 +1,7 @@
 //! What a run must not do: leave a shape tangled, or less symmetric than it was.
 
 use crate::context::Context;
+use crate::detect::DetectParams;
 use crate::error::Result;
 use crate::job::bent::{Bent, unbend_part};
 use crate::job::{Detected, Symmetrized};
@@ -15,7 +16,10 @@ use crate::shape::Mesh;
 const SPOILED: f64 = 0.05;
 
 /// Mean asymmetry, % of D, that may come and go with the triangulation.
-const WORSE: f64 = 0.01;
+const SLIGHTLY: f64 = 0.01;
+
+/// Share of the faces that may stay tangled.
+const TANGLED: f64 = 0.001;
 
 /// What was `done`, where it is tangled with the form of the input.
 pub(super) fn mended(
@@ -29,18 +33,20 @@ pub(super) fn mended(
     let rest = &before.working.surface;
     let after = rest.with_positions(std::mem::take(&mut done.positions));
     let mended = ctx.stage("mend", |_| mend(rest, after))?;
-    if mended.share > 0.0 {
+    if mended.share > 0.0 || mended.left > 0 {
         done.steps.push(Step::Mend {
             share: mended.share,
+            left: mended.left,
         });
     }
     done.positions = mended.surface.positions;
     Ok(done)
 }
 
-/// Whether so much of what was `done` had to be mended that the whole is not to be had.
-pub(super) fn spoiled(done: &Optimized) -> bool {
-    let mended = |step: &Step| matches!(step, Step::Mend { share } if *share > SPOILED);
+/// Whether so much of what was `done` to `before` had to be mended, or could not be, that the whole is not to be had.
+pub(super) fn spoiled(before: &Detected, done: &Optimized) -> bool {
+    let most = (TANGLED * before.working.surface.triangles.len() as f64) as usize;
+    let mended = |step: &Step| matches!(step, Step::Mend { share, left } if *share > SPOILED || *left > most);
     done.steps.iter().any(mended)
 }
 
@@ -90,41 +96,43 @@ pub(super) fn worse(job: &Symmetrized) -> bool {
         .any(|s| matches!(s, Step::Bend { .. }));
     // Nor are groups, rows and copies, which need not have any.
     let measured = job.before.wall.is_none() && !posed && result.exact.is_empty();
-    measured && result.asymmetry.mean > job.report.input.shape.mean_asymmetry() + WORSE
+    measured && result.asymmetry.mean > job.report.input.shape.mean_asymmetry()
 }
 
-/// Leaves a mesh that would come out less symmetric as it was.
-pub(super) fn give_up_on_worse(job: &mut Symmetrized, mesh: &Mesh, ctx: &mut Context<'_>) {
+/// Leaves a `mesh` that would come out less symmetric as it was; says so where it is more than comes and goes with
+/// the triangulation, or where it is only a `part` that has a symmetry.
+pub(super) fn give_up_on_worse(
+    job: &mut Symmetrized,
+    mesh: &Mesh,
+    part: bool,
+    detect: &DetectParams,
+    ctx: &mut Context<'_>,
+) -> Result<()> {
     let Some(result) = job.report.result.as_ref().filter(|_| worse(job)) else {
-        return;
+        return Ok(());
     };
-    ctx.warn(format!(
-        "the shape is left as it is: made symmetric in a part, as a whole it would be less so ({:.3} % of D from \
-         symmetric, was {:.3})",
+    let (was, mean) = (
+        job.report.input.shape.mean_asymmetry(),
         result.asymmetry.mean,
-        job.report.input.shape.mean_asymmetry()
-    ));
-    leave(job, mesh.clone());
+    );
+    if part || mean > 1.05 * was + SLIGHTLY {
+        ctx.warn(format!(
+            "the shape is left as it is: with what is symmetric of it made so, as a whole it would be less so ({mean:.3} \
+             % of D from symmetric, was {was:.3})"
+        ));
+    }
+    if let Some(bend) = &mut job.report.bend {
+        bend.removed = 0.0;
+    }
+    let before = &job.before;
+    let surface = &before.working.surface;
+    let unmoved = Optimized::unmoved(surface, &before.detection, Outcome::Converged);
+    job.conclude(unmoved, mesh, detect, ctx)
 }
 
 /// Says that the rest was left, where a `part` was made symmetric and is still.
 pub(super) fn say_part(job: &Symmetrized, part: bool, ctx: &mut Context<'_>) {
-    if part && job.after.is_some() {
+    if part && !job.report.steps.is_empty() {
         ctx.warn("only a part is made symmetric: the rest has no counterpart that fits");
     }
-}
-
-/// Takes the result of a `job` back: its shape is the input's, `shape`.
-pub(super) fn leave(job: &mut Symmetrized, shape: Mesh) {
-    if let Some(bend) = &mut job.report.bend {
-        bend.removed = 0.0;
-    }
-    job.report.result = None;
-    job.report.steps.clear();
-    job.report.outcome = Outcome::NoSymmetry;
-    job.outcome = Outcome::NoSymmetry;
-    job.after = None;
-    job.goals.clear();
-    job.planes[1] = job.planes[0];
-    job.shape = shape;
 }

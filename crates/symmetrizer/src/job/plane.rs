@@ -7,12 +7,12 @@ use crate::detect::{DetectParams, Want, Wanted};
 use crate::drawing::{Drawing, Outline};
 use crate::error::{Error, Result};
 use crate::geom::{Matrix3, Point, Vector};
-use crate::job::{Detected, Measured, Symmetrized, guard, made};
+use crate::job::{Detected, Measured, Symmetrized, made};
 use crate::optimize::orbit::Goal;
 use crate::optimize::outcome::mirrors;
 use crate::optimize::plan::goals;
 use crate::optimize::schedule::Settings;
-use crate::optimize::Step;
+use crate::optimize::{Outcome, Step};
 use crate::params::Params;
 use crate::shape::wall::Wall;
 use crate::shape::working::{Normalization, Working};
@@ -88,8 +88,22 @@ pub(super) fn give_up_on_worse(job: &mut Symmetrized, ctx: &mut Context<'_>) {
             result.asymmetry.mean
         ));
         let shape = corners(wall);
-        guard::leave(job, shape);
+        leave(job, shape);
     }
+}
+
+/// Takes the result of a `job` back: its shape is the input's, `shape`.
+fn leave(job: &mut Symmetrized, shape: Mesh) {
+    if let Some(bend) = &mut job.report.bend {
+        bend.removed = 0.0;
+    }
+    job.report.result = None;
+    job.report.steps.clear();
+    job.report.outcome = Outcome::NoSymmetry;
+    job.outcome = Outcome::NoSymmetry;
+    job.after = None;
+    job.goals.clear();
+    job.shape = shape;
 }
 
 /// Whether it was to be done all the same: what is uncertain, only a part of it, or nothing but unbending. The orbits

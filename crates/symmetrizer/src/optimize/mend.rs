@@ -22,8 +22,13 @@ const FIRST: (f64, f64) = (0.015, 2.0);
 /// How much further in each one that follows, where it was not enough.
 const FURTHER: f64 = 1.5;
 
+/// What lies around makes room, as far from a tangle as this many times that.
+const ROOM: f64 = 3.0;
 /// No more than this share of the area is given back.
 const MOST: f64 = 0.5;
+
+/// To untangle a face is worth the new form of so many: two slivers between two fingers are not worth a hand.
+const WORTH: f64 = 100.0;
 
 /// A surface that was mended.
 pub struct Mended {
@@ -31,40 +36,55 @@ pub struct Mended {
     pub surface: Surface,
     /// Share of its area that has the form of the input again.
     pub share: f64,
+    /// Faces that are tangled all the same.
+    pub left: usize,
+}
+
+impl Mended {
+    /// What is tangled and what it took, as a share of the surface.
+    fn cost(&self) -> f64 {
+        WORTH * self.left as f64 / self.surface.triangles.len().max(1) as f64 + self.share
+    }
 }
 
 /// `after`, a deformed state of `before`, mended where faces cross or are turned over that did not and were not
-/// before: there it has the form of `before` again. What cannot be mended stays.
+/// before: there it has the form of `before` again. What cannot be mended, or only at the cost of much that is well,
+/// stays.
 ///
 /// # Errors
 /// [`crate::Error::Numerical`].
 pub fn mend(before: &Surface, after: Surface) -> Result<Mended> {
-    let untouched = |surface| Mended {
+    let untouched = |surface, left| Mended {
         surface,
         share: 0.0,
+        left,
     };
     if crossing_faces(&after).is_empty() && inverted_faces(before, &after).is_empty() {
-        return Ok(untouched(after));
+        return Ok(untouched(after, 0));
     }
     let mut mending = Mending::new(before);
     let mut tangled = mending.tangles.faces(before, &after);
-    let mut fewest = tangled.len();
-    let mut best = untouched(after.clone());
+    let mut best = untouched(after.clone(), tangled.len());
     for _ in 0..ATTEMPTS {
         if tangled.is_empty() {
             break;
         }
         mending.widen(before, &tangled);
-        let freed = mending.freed(before);
-        let share = share(before, &freed);
+        let core = mending.within(before, 1.0);
+        let share = share(before, &core);
         if share > MOST {
             break;
         }
-        let surface = after.with_positions(regain(before, &after, &freed)?);
+        let freed = mending.within(before, ROOM);
+        let surface = after.with_positions(regain(before, &after, &core, &freed)?);
         tangled = mending.tangles.faces(before, &surface);
-        if tangled.len() < fewest {
-            fewest = tangled.len();
-            best = Mended { surface, share };
+        let mended = Mended {
+            surface,
+            share,
+            left: tangled.len(),
+        };
+        if mended.cost() < best.cost() {
+            best = mended;
         }
     }
     Ok(best)
@@ -104,7 +124,7 @@ impl Mending {
 
     /// Reaches further from where faces are still tangled than what was given back there did.
     fn widen(&mut self, surface: &Surface, tangled: &[u32]) {
-        let (_, owner) = self.spread(surface);
+        let (_, owner) = self.spread(surface, 1.0);
         let mut at: Vec<u32> = tangled
             .iter()
             .flat_map(|&f| surface.triangles[f as usize])
@@ -121,16 +141,16 @@ impl Mending {
         }
     }
 
-    /// The vertices within reach of a tangle, along the edges at rest.
-    fn freed(&self, surface: &Surface) -> Vec<bool> {
-        let (left, _) = self.spread(surface);
+    /// The vertices within so many times the reach of a tangle, along the edges at rest.
+    fn within(&self, surface: &Surface, times: f64) -> Vec<bool> {
+        let (left, _) = self.spread(surface, times);
         left.iter().map(|l| *l > 0.0).collect()
     }
 
-    /// How much of its reach is left at each vertex of the tangled one that reaches furthest beyond it, and which
-    /// that is.
-    fn spread(&self, surface: &Surface) -> (Vec<f64>, Vec<Option<u32>>) {
-        let mut left = self.reach.clone();
+    /// How much of so many `times` its reach is left at each vertex, of that tangled vertex which reaches furthest
+    /// beyond it, and which one that is.
+    fn spread(&self, surface: &Surface, times: f64) -> (Vec<f64>, Vec<Option<u32>>) {
+        let mut left: Vec<f64> = self.reach.iter().map(|r| times * r).collect();
         let own = (0..).zip(&left).map(|(v, r)| (*r > 0.0).then_some(v));
         let mut owner: Vec<Option<u32>> = own.collect();
         // Lengths are not negative, so their bits are in order.

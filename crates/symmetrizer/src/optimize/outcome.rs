@@ -105,6 +105,8 @@ pub enum Step {
     Mend {
         /// Share of the area.
         share: f64,
+        /// Faces that are tangled all the same.
+        left: usize,
     },
 }
 

@@ -113,14 +113,33 @@ impl EdgeSystem {
         x: &[Point],
     ) -> Result<Vec<Vector>, SolveError> {
         let rest = &surface.positions;
-        let mut b: Vec<Vector> = (0..rest.len())
+        let turned = |_, i: usize, j: usize| -> Vector {
+            0.5 * ((rotations[i] + rotations[j]) * (rest[i] - rest[j]))
+        };
+        self.ways_for(surface, turned, pulls, unit, x)
+    }
+
+    /// [`EdgeSystem::ways`] where x_i - x_j is to be `wanted` of the edge and its vertices i and j, whichever comes
+    /// first.
+    ///
+    /// # Errors
+    /// [`SolveError`].
+    pub fn ways_for(
+        &mut self,
+        surface: &Surface,
+        wanted: impl Fn(usize, usize, usize) -> Vector + Sync,
+        pulls: &[Pull],
+        unit: f64,
+        x: &[Point],
+    ) -> Result<Vec<Vector>, SolveError> {
+        let n = x.len();
+        let mut b: Vec<Vector> = (0..n)
             .into_par_iter()
             .with_min_len(512)
             .map(|i| {
                 let drawn = self.around[i].iter().map(|&(e, j)| {
-                    let j = j as usize;
-                    let turned = 0.5 * ((rotations[i] + rotations[j]) * (rest[i] - rest[j]));
-                    self.weights[e as usize] * (turned - (x[i] - x[j]))
+                    let (e, j) = (e as usize, j as usize);
+                    self.weights[e] * (wanted(e, i, j) - (x[i] - x[j]))
                 });
                 drawn.sum()
             })
@@ -134,7 +153,6 @@ impl EdgeSystem {
                 b[v] += t * force;
             }
         }
-        let n = rest.len();
         let mut ways = vec![0.0; 3 * n];
         for (i, b) in b.iter().enumerate().filter(|(i, _)| !self.fixed[*i]) {
             for axis in 0..3 {
