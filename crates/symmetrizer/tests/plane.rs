@@ -263,7 +263,33 @@ fn turns_are_found_and_made_exact() {
         let all = done.job.before.symmetries().iter();
         let mirrors = all.filter(|s| s.q_from_p.is_improper()).count();
         assert!((mirrors > 0) == (lines > 0), "{name}: {mirrors} lines");
-        assert_eq!(done.exact().is_ok(), lines > 0, "{name}");
+        let exact = done.exact().expect(name);
+        own_copies(&exact, if lines > 0 { 6 } else { 4 }, lines > 0, name);
+        assert_eq!(
+            exact.outline().rings.len(),
+            drawing.outline().rings.len(),
+            "{name}"
+        );
+        let lost = (exact.outline().area() / drawing.outline().area() - 1.0).abs();
+        assert!(lost < 0.01, "{name}: {lost}");
+    }
+}
+
+/// Every point of a drawing is there again after the smallest of `turns` turns about the origin and, where it has
+/// lines, mirrored: to the bit in quarter turns and about the upright line, else to the last digit written.
+fn own_copies(drawing: &Drawing, turns: u32, mirrored: bool, name: &str) {
+    let places: Vec<Point> = drawing.outline().points().copied().collect();
+    let diagonal = drawing.outline().diagonal();
+    let (sin, cos) = (std::f64::consts::TAU / f64::from(turns)).sin_cos();
+    let near = |x: f64, y: f64, within: f64| {
+        let away = places.iter().map(|q| (q.x - x).hypot(q.y - y));
+        away.fold(f64::INFINITY, f64::min) <= within * diagonal
+    };
+    let digits = if turns == 4 { 1e-12 } else { 2e-5 };
+    for p in &places {
+        let turned = [cos * p.x - sin * p.y, sin * p.x + cos * p.y];
+        assert!(near(turned[0], turned[1], digits), "{name}: {p}");
+        assert!(!mirrored || near(-p.x, p.y, 1e-12), "{name}: {p}");
     }
 }
 

@@ -4,11 +4,11 @@ use crate::apply::measure::asymmetry_of_outline;
 use crate::context::Context;
 use crate::deform::{Igarashi, Stiffness, carry};
 use crate::detect::{DetectParams, Group, Want, Wanted};
-use crate::drawing::{Drawing, Outline};
+use crate::drawing::{Drawing, Outline, Turns};
 use crate::error::{Error, Result};
 use crate::geom::{Matrix3, Point, Vector};
 use crate::job::{Detected, Measured, Symmetrized, made};
-use crate::optimize::orbits::orbits;
+use crate::optimize::orbits::{centroid, orbits};
 use crate::optimize::outcome::mirrors;
 use crate::optimize::schedule::{Settings, prepared};
 use crate::optimize::{Optimized, Outcome, Step};
@@ -28,25 +28,44 @@ pub struct Drawn {
 }
 
 impl Drawn {
-    /// The result's outline alone, exactly symmetric about its line to the last digit of a written file; see
-    /// [`Drawing::exact`].
+    /// The result's outline alone, exactly symmetric under its group of turns, or about its line, to the last digit of
+    /// a written file; see [`Drawing::exact`] and [`Drawing::exact_under`].
     ///
     /// # Errors
-    /// [`Error::Input`] where no line was found, or the symmetry is one of turns alone.
+    /// [`Error::Input`] where no symmetry was found, and those of the drawing.
     pub fn exact(&self) -> Result<Drawing> {
-        let line = self.job.after.as_ref().filter(|after| {
-            let group = group(after);
-            group.is_none_or(|g| g.name.starts_with('D'))
-        });
-        let Some(after) = line else {
-            let what = "there is no line about which the drawing could be exactly symmetric";
+        let Some(after) = &self.job.after else {
+            let what = "there is no symmetry that the drawing could have exactly";
             return Err(Error::input(what, "write it without --exact"));
         };
-        let (plane, normalization) = (self.job.planes[1], after.working.normalization);
+        let normalization = after.working.normalization;
+        if let Some(turns) = group(&self.job.before).and_then(|g| turns(g, &after.working.surface))
+        {
+            return self.drawing.exact_under(&Turns {
+                center: normalization.to_document(&turns.center),
+                ..turns
+            });
+        }
+        let plane = self.job.planes[1];
         let on = normalization.to_document(&Point::from(plane.normal * plane.offset));
         self.drawing
             .exact(plane.normal, plane.normal.dot(&on.coords))
     }
+}
+
+/// A group as turns about the centroid of what has it, which is its fixed point; of its lines the one that is nearest
+/// to upright. `None` without turns.
+fn turns(group: &Group, surface: &Surface) -> Option<Turns> {
+    let proper = group.elements.iter().filter(|g| !g.is_improper()).count();
+    let origin = Point::origin();
+    let lines = group.elements.iter().filter(|g| g.is_improper());
+    let normals = lines.map(|g| g.nearest_mirror(&origin).normal);
+    let upright = normals.max_by(|a, b| a.x.abs().total_cmp(&b.x.abs()));
+    (proper > 1).then(|| Turns {
+        order: proper,
+        center: centroid(surface),
+        mirror: upright.map(|n| if n.x < 0.0 { -n } else { n }),
+    })
 }
 
 /// Share of an outline that one line must hold for: a drawing of which only a part has a line, straight or bent, is

@@ -11,6 +11,7 @@ pub mod outcome;
 pub mod params;
 mod rounds;
 pub mod schedule;
+mod tidy;
 pub mod untangle;
 
 pub use outcome::{Optimized, Outcome, Step};

@@ -96,7 +96,8 @@ pub fn orbits(
     })
 }
 
-fn centroid(surface: &Surface) -> Point {
+/// The mean place of a surface by area.
+pub fn centroid(surface: &Surface) -> Point {
     let weighted = surface.positions.iter().zip(&surface.vertex_areas);
     let sum: Vector = weighted.map(|(x, a)| x.coords * *a).sum();
     Point::from(sum / surface.area())
