@@ -324,7 +324,7 @@ fn turns_are_found_and_made_exact() {
 }
 
 /// Every point of a drawing is there again after the smallest of `turns` turns about the origin and, where it has
-/// lines, mirrored: to the bit in quarter turns and about the upright line, else to the last digit written.
+/// lines, mirrored: to the bit in quarter turns, else to the last digit written.
 fn own_copies(drawing: &Drawing, turns: u32, mirrored: bool, name: &str) {
     let places: Vec<Point> = drawing.outline().points().copied().collect();
     let diagonal = drawing.outline().diagonal();
@@ -337,7 +337,7 @@ fn own_copies(drawing: &Drawing, turns: u32, mirrored: bool, name: &str) {
     for p in &places {
         let turned = [cos * p.x - sin * p.y, sin * p.x + cos * p.y];
         assert!(near(turned[0], turned[1], digits), "{name}: {p}");
-        assert!(!mirrored || near(-p.x, p.y, 1e-12), "{name}: {p}");
+        assert!(!mirrored || near(-p.x, p.y, digits), "{name}: {p}");
     }
 }
 

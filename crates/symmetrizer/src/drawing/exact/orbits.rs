@@ -186,6 +186,8 @@ struct Ring<'a> {
 struct Pieces {
     curves: Vec<CubicBez>,
     images: Vec<Element>,
+    /// What mirrors about the lines that its ends lie on, where they do.
+    ends: Option<[Element; 2]>,
 }
 
 impl Ring<'_> {
@@ -196,6 +198,7 @@ impl Ring<'_> {
             (1, []) => Pieces {
                 curves: tracer.ring(self.points.to_vec()),
                 images: vec![self.own[0]],
+                ends: None,
             },
             (_, []) => self.turned(tracer, turns)?,
             _ => self.mirrored(tracer, &lines)?,
@@ -230,6 +233,7 @@ impl Ring<'_> {
         Ok(Pieces {
             curves,
             images: powers(&g, count),
+            ends: None,
         })
     }
 
@@ -260,6 +264,7 @@ impl Ring<'_> {
         Ok(Pieces {
             curves,
             images: both.collect(),
+            ends: Some([m, l]),
         })
     }
 
@@ -358,6 +363,15 @@ fn drawn(pieces: &Pieces, g: &Element, decimals: u32) -> Subpath {
             .iter()
             .map(|c| CubicBez::new(place(c.p0), place(c.p1), place(c.p2), place(c.p3)));
         let mut moved: Vec<CubicBez> = moved.collect();
+        if let (Some([m, l]), [first, .., last]) = (pieces.ends, pieces.curves.as_slice()) {
+            // Two elements take an end to the same place, rounded apart: between them it is nobody's more.
+            let between = |p: Flat, line: Element| {
+                round(g.apply(p).midpoint(g.after(&line).apply(p)), decimals)
+            };
+            let count = moved.len();
+            moved[0].p0 = between(first.p0, m);
+            moved[count - 1].p3 = between(last.p3, l);
+        }
         if of.is_mirrored {
             moved.reverse();
             for c in &mut moved {
