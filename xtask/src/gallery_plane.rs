@@ -27,15 +27,15 @@ const DRAWINGS: [(&str, bool); 14] = [
     ("dragonfly_gi", false),
     ("butterfly_rot.traced", false),
     ("beetle_walk.traced", false),
-    ("bat_fold.traced", true),
+    ("bat_fold.traced", false),
     ("oak_leaf_gi", true),
-    ("gecko_photo.traced", false),
+    ("gecko_photo.traced", true),
     ("lizard_curl.traced", false),
     ("lizard_lean.traced", false),
     ("lizard_s.traced", false),
     ("lizard_up.traced", false),
     ("sea_turtle_gi", false),
-    ("turtle_tilt.traced", false),
+    ("turtle_tilt.traced", true),
 ];
 
 /// Side of a drawing, pixels, room above a pair, and pairs in a row.

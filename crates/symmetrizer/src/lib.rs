@@ -19,6 +19,7 @@ pub mod pair;
 pub mod params;
 pub mod patch;
 pub mod picture;
+mod raster;
 pub mod report;
 pub mod sample;
 pub mod shape;

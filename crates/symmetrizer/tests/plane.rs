@@ -7,7 +7,7 @@ use symmetrizer::Context;
 use symmetrizer::Drawn;
 use symmetrizer::deform::{Deformer, Igarashi, Pull};
 use symmetrizer::detect::{DetectParams, Detection, detect_in_plane};
-use symmetrizer::drawing::{Reading, read};
+use symmetrizer::drawing::{Format, Reading, decode, read};
 use symmetrizer::field::trust::Verdict;
 use symmetrizer::geom::{Point, Vector};
 use symmetrizer::optimize::Step;
@@ -189,7 +189,7 @@ fn bent_drawings_come_out_straight_and_symmetric() {
     for (name, most) in [
         ("gecko_straight", 0.05),
         ("gecko_bent", 0.25),
-        ("gecko_sbend_walk", 0.5),
+        ("gecko_sbend_walk", 0.4),
         ("beetle11_sym_bent", 0.45),
         ("face1_sym_bent", 0.45),
         ("butterfly11_sym_bent", 2.4),
@@ -210,6 +210,54 @@ fn bent_drawings_come_out_straight_and_symmetric() {
         assert!(result.distortion.new_crossings <= 4, "{name}");
         assert!(result.distortion.inverted_faces <= 4, "{name}");
     }
+}
+
+/// A strip with spines of several lengths to both sides, about the line x = 0.
+fn comb() -> Vec<Point> {
+    let spines = [
+        (0.1, 0.09),
+        (0.22, 0.04),
+        (0.4, 0.12),
+        (0.55, 0.06),
+        (0.8, 0.03),
+    ];
+    let side = (0..=400).map(|k| {
+        let y = f64::from(k) / 400.0;
+        let spine = |&(at, long): &(f64, f64)| long * (-((y - at) / 0.012).powi(2)).exp();
+        let ends = (y * (1.0 - y)).sqrt().min(0.25) / 0.25;
+        Point::new(0.05 * ends + spines.iter().map(spine).sum::<f64>(), y, 0.0)
+    });
+    let right: Vec<Point> = side.collect();
+    let left = right[1..400].iter().rev();
+    let left: Vec<Point> = left.map(|x| Point::new(-x.x, x.y, 0.0)).collect();
+    [right, left].concat()
+}
+
+#[test]
+fn more_than_half_a_turn_is_undone() {
+    let rest = comb();
+    let turn = 250.0_f64.to_radians();
+    let bent = rest.iter().map(|x| {
+        let (sin, cos) = (turn * x.y).sin_cos();
+        format!(
+            "{},{}",
+            500.0 * ((1.0 - cos) / turn + x.x * cos),
+            500.0 * (sin / turn - x.x * sin)
+        )
+    });
+    let points = bent.collect::<Vec<_>>().join(" ");
+    let text =
+        format!("<svg xmlns='http://www.w3.org/2000/svg'><polygon points='{points}'/></svg>");
+    let drawing = decode(text.into_bytes(), Format::Svg, &Reading::default()).expect("a drawing");
+    let done = symmetrized(&drawing);
+    let bend = done.job.report.bend.as_ref().expect("a bend");
+    let rms = missed(&done.drawing, &rest);
+    println!(
+        "score {:.2}, rival {:?}, rms {rms:.3} % of D",
+        bend.score, bend.rival
+    );
+    assert_eq!(bend.verdict, Verdict::Accept);
+    assert!(rms < 0.8, "{rms}");
 }
 
 #[test]
@@ -259,7 +307,33 @@ fn turns_are_found_and_made_exact() {
         let all = done.job.before.symmetries().iter();
         let mirrors = all.filter(|s| s.q_from_p.is_improper()).count();
         assert!((mirrors > 0) == (lines > 0), "{name}: {mirrors} lines");
-        assert_eq!(done.exact().is_ok(), lines > 0, "{name}");
+        let exact = done.exact().expect(name);
+        own_copies(&exact, if lines > 0 { 6 } else { 4 }, lines > 0, name);
+        assert_eq!(
+            exact.outline().rings.len(),
+            drawing.outline().rings.len(),
+            "{name}"
+        );
+        let lost = (exact.outline().area() / drawing.outline().area() - 1.0).abs();
+        assert!(lost < 0.01, "{name}: {lost}");
+    }
+}
+
+/// Every point of a drawing is there again after the smallest of `turns` turns about the origin and, where it has
+/// lines, mirrored: to the bit in quarter turns, else to the last digit written.
+fn own_copies(drawing: &Drawing, turns: u32, mirrored: bool, name: &str) {
+    let places: Vec<Point> = drawing.outline().points().copied().collect();
+    let diagonal = drawing.outline().diagonal();
+    let (sin, cos) = (std::f64::consts::TAU / f64::from(turns)).sin_cos();
+    let near = |x: f64, y: f64, within: f64| {
+        let away = places.iter().map(|q| (q.x - x).hypot(q.y - y));
+        away.fold(f64::INFINITY, f64::min) <= within * diagonal
+    };
+    let digits = if turns == 4 { 1e-12 } else { 2e-5 };
+    for p in &places {
+        let turned = [cos * p.x - sin * p.y, sin * p.x + cos * p.y];
+        assert!(near(turned[0], turned[1], digits), "{name}: {p}");
+        assert!(!mirrored || near(-p.x, p.y, digits), "{name}: {p}");
     }
 }
 

@@ -28,6 +28,15 @@ pub struct Args {
     /// Where to write the results
     #[arg(long, value_name = "FOLDER")]
     write: Option<PathBuf>,
+    /// Seed of all randomness
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Samples of each outline
+    #[arg(long, value_name = "N", default_value_t = Params::default().sample.outline)]
+    samples: usize,
+    /// Drawings whose rest is known only
+    #[arg(long)]
+    known: bool,
     /// Undo uncertain bends, too
     #[arg(long)]
     accept_uncertain: bool,
@@ -83,7 +92,8 @@ pub fn run(args: &Args) -> Result<Answer> {
         let drawing = of_ring(&bent(&rest, bend))?;
         table.row(one(&name.replace(' ', "_"), &drawing, &rest, args)?.cells(name));
     }
-    for path in real()? {
+    let real = if args.known { Vec::new() } else { real()? };
+    for path in real {
         let name = path
             .file_name()
             .unwrap_or_default()
@@ -143,11 +153,12 @@ fn of_ring(ring: &[Point]) -> Result<Drawing> {
 
 fn one(name: &str, drawing: &Drawing, rest: &[Point], args: &Args) -> Result<Figures> {
     let mut params = Params::default();
+    params.sample.outline = args.samples;
     if args.accept_uncertain {
         params.straighten.when = When::Uncertain;
     }
     let clock = Instant::now();
-    let done = symmetrize_drawing(drawing, &params, &mut Context::new(0))?;
+    let done = symmetrize_drawing(drawing, &params, &mut Context::new(args.seed))?;
     let seconds = clock.elapsed().as_secs_f64();
     if let Some(folder) = &args.write {
         std::fs::create_dir_all(folder).map_err(|e| Error::io(folder, e))?;

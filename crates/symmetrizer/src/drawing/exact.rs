@@ -1,7 +1,9 @@
-//! A drawing that is its own mirror image to the last digit that is written.
+//! A drawing that is its own mirror image, or its own copy under a group, to the last digit that is written.
 //!
 //! Its line becomes x = 0 of the file, one half is drawn with curves, and the other half has the same numbers with
 //! the other sign.
+
+mod orbits;
 
 use kurbo::{CubicBez, PathSeg, Point as Flat, Rect};
 
@@ -21,6 +23,9 @@ const REACH: f64 = 0.004;
 const SLIVER: f64 = 1e-3;
 /// Steep enough to cross the line at a right angle: the cosine of what is missing.
 const ACROSS: f64 = 0.9;
+
+pub use orbits::Turns;
+pub(super) use orbits::svg as svg_of_group;
 
 /// The text of an SVG file with `outline` made exactly symmetric about the line n.x = offset, which stands upright in
 /// it.
@@ -48,23 +53,28 @@ pub(super) fn svg(outline: &Outline, normal: Vector, offset: f64) -> Result<Stri
         }
         subpaths.extend(half.whole(&tracer));
     }
-    let path = Path { subpaths };
-    if path.subpaths.is_empty() {
+    if subpaths.is_empty() {
         let what = "nothing lies on one side of the line of symmetry";
         return Err(Error::input(what, "write it without --exact"));
     }
     let decimals = write::decimals(PRECISION * diagonal);
-    let data = write::data(&rounded(&path, decimals), decimals);
+    let path = rounded(&Path { subpaths }, decimals);
+    Ok(text(&path, decimals, diagonal))
+}
+
+/// An SVG file of `path` alone.
+fn text(path: &Path, decimals: u32, diagonal: f64) -> String {
+    let data = write::data(path, decimals);
     let mut points = path.control_points();
     let first = points.next().unwrap_or_default();
     let around = points.fold(Rect::from_points(first, first), |r, p| r.union_pt(p));
     let around = around.inflate(MARGIN * diagonal, MARGIN * diagonal);
     let window = [around.x0, around.y0, around.width(), around.height()];
     let window = window.map(|v| write::number(v, decimals)).join(" ");
-    Ok(format!(
+    format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{window}\">\
          <path fill-rule=\"evenodd\" d=\"{data}\"/></svg>\n"
-    ))
+    )
 }
 
 /// A piece of a ring on the side x < 0.
@@ -162,15 +172,16 @@ fn closed(curves: &[CubicBez]) -> Subpath {
     drawn
 }
 
+/// A point to so many decimals; opposite ones stay opposite.
+fn round(p: Flat, decimals: u32) -> Flat {
+    let unit = 10f64.powi(decimals as i32);
+    let [x, y] = [p.x, p.y].map(|c| (c * unit).round() / unit + 0.0);
+    Flat::new(x, y)
+}
+
 /// Every coordinate to so many decimals, so that differences that are written are exact, too.
 fn rounded(path: &Path, decimals: u32) -> Path {
-    let unit = 10f64.powi(decimals as i32);
-    let round = |p: Flat| {
-        Flat::new(
-            (p.x * unit).round() / unit + 0.0,
-            (p.y * unit).round() / unit + 0.0,
-        )
-    };
+    let round = |p: Flat| round(p, decimals);
     let subpath = |s: &Subpath| {
         let mut drawn = Subpath::new(round(s.start));
         let segments = s.segments.iter().map(|segment| {

@@ -28,6 +28,7 @@ use crate::geom::Point;
 use crate::shape::document::Document;
 use crate::shape::io as shapes;
 
+pub use exact::Turns;
 pub use format::Format;
 pub use outline::{Outline, Ring, Source};
 
@@ -185,6 +186,18 @@ impl Drawing {
     /// [`Error::Input`] where nothing lies on the near side.
     pub fn exact(&self, normal: crate::geom::Vector, offset: f64) -> Result<Self> {
         let text = exact::svg(&self.outline, normal, offset)?;
+        decode(text.into_bytes(), Format::Svg, &Reading::default())
+    }
+
+    /// The drawing's outline alone, exactly its own copy under all of a group: of each ring the shortest stretch whose
+    /// copies are all of it, and those. The centre is the origin then and one of the lines, where there are any, x = 0.
+    /// Under quarter turns and lines at half a right angle to each other the digits of a written file are the same;
+    /// under other turns they are those nearest to the images.
+    ///
+    /// # Errors
+    /// [`Error::Input`] where a ring does not meet its own lines as its images would.
+    pub fn exact_under(&self, group: &Turns) -> Result<Self> {
+        let text = exact::svg_of_group(&self.outline, group)?;
         decode(text.into_bytes(), Format::Svg, &Reading::default())
     }
 

@@ -16,7 +16,7 @@ const NORMALS: f64 = 0.5;
 /// Partners nearer than this, fraction of L, have no mirror of their own.
 const NEAR: f64 = 0.03;
 /// Share of the ring within which two pairings begin at the same place.
-const SAME: f64 = 0.04;
+const SAME: f64 = 0.06;
 
 /// The best pairing of an outline with itself.
 pub struct Around {

@@ -135,11 +135,33 @@ pub fn grow(land: &Land<'_>, seeds: Vec<Option<Partner>>, cancel: &CancelToken) 
     SymmetryField { partners, maps }
 }
 
+/// Grows `seeds` over the rest of the surface and leaves them as they are: pairs that were found all at once.
+pub fn fill(land: &Land<'_>, seeds: Vec<Option<Partner>>, cancel: &CancelToken) -> SymmetryField {
+    let narrow = (Local::Improper, RADII[1]);
+    let mut partners = seeds.clone();
+    for &tau in &TIERS {
+        for _ in 0..ROUNDS {
+            if cancel.is_cancelled() {
+                break;
+            }
+            let mut next = grown(land, &partners, narrow, tau);
+            for (p, seed) in next.iter_mut().zip(&seeds).filter(|(_, s)| s.is_some()) {
+                *p = *seed;
+            }
+            if !more(&mut partners, next) {
+                break;
+            }
+        }
+    }
+    let maps = fit(land.samples, land.reach, &partners, Local::Mirror, RADII[0]);
+    SymmetryField { partners, maps }
+}
+
 /// Accepts candidates tier by tier; accepted pairs are matched anew in every round.
 fn tiers(
     land: &Land<'_>,
     partners: &mut Vec<Option<Partner>>,
-    (local, radius): (Local, f64),
+    local: (Local, f64),
     taus: &[f64],
     cancel: &CancelToken,
 ) {
@@ -148,23 +170,38 @@ fn tiers(
             if cancel.is_cancelled() {
                 return;
             }
-            let maps = fit(land.samples, land.reach, partners, local, radius);
-            let next: Vec<Option<Partner>> = (0..partners.len() as u32)
-                .into_par_iter()
-                .map(|s| match (&partners[s as usize], &maps[s as usize]) {
-                    (Some(_), Some(t)) => land.image(s, t, tau),
-                    (Some(kept), None) => Some(*kept),
-                    _ => candidate(land, &maps, s, tau),
-                })
-                .collect();
-            let accepted = |p: &[Option<Partner>]| p.iter().flatten().count();
-            let grown = accepted(&next) > accepted(partners);
-            *partners = next;
-            if !grown {
+            let next = grown(land, partners, local, tau);
+            if !more(partners, next) {
                 break;
             }
         }
     }
+}
+
+/// The partners a round later: accepted ones matched anew, candidates within `tau` accepted.
+fn grown(
+    land: &Land<'_>,
+    partners: &[Option<Partner>],
+    (local, radius): (Local, f64),
+    tau: f64,
+) -> Vec<Option<Partner>> {
+    let maps = fit(land.samples, land.reach, partners, local, radius);
+    (0..partners.len() as u32)
+        .into_par_iter()
+        .map(|s| match (&partners[s as usize], &maps[s as usize]) {
+            (Some(_), Some(t)) => land.image(s, t, tau),
+            (Some(kept), None) => Some(*kept),
+            _ => candidate(land, &maps, s, tau),
+        })
+        .collect()
+}
+
+/// Takes over the partners of the next round; whether they are more.
+fn more(partners: &mut Vec<Option<Partner>>, next: Vec<Option<Partner>>) -> bool {
+    let accepted = |p: &[Option<Partner>]| p.iter().flatten().count();
+    let grown = accepted(&next) > accepted(partners);
+    *partners = next;
+    grown
 }
 
 /// The partner of a sample without one where the maps of its neighbours say.

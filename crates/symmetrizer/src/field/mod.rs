@@ -48,6 +48,10 @@ pub struct SymmetryField {
     pub maps: Vec<Option<Isometry>>,
 }
 
+/// Worth of pairs all around an outline, which follow each other in order, beside that of those which grow from
+/// one to the next: these slip where limbs are thin.
+const IN_ORDER: f64 = 1.1;
+
 /// The field that detection's `mirrors` grow into on `land`: of several starts the one that covers most.
 ///
 /// # Errors
@@ -59,13 +63,10 @@ pub fn find(
 ) -> Result<SymmetryField> {
     let cancel = ctx.token();
     let claims = seeds::CLAIMS.iter();
-    let mut starts: Vec<_> = claims
+    let starts: Vec<_> = claims
         .map(|&claim| seeds::seeds(land, mirrors, claim))
         .collect();
-    if let Some(wall) = land.wall {
-        starts.push(around::Around::of(wall, land.samples).partners);
-    }
-    let grown: Vec<SymmetryField> = starts
+    let mut grown: Vec<SymmetryField> = starts
         .into_par_iter()
         .map(|seeds| grow(land, seeds, cancel))
         .collect();
@@ -75,9 +76,16 @@ pub fn find(
         Some(_) => field.cover() * trust::Trust::of(land, field).likeness(),
         None => field.cover(),
     };
-    let best = grown
+    let mut worths: Vec<f64> = grown.iter().map(worth).collect();
+    if let Some(wall) = land.wall {
+        let around = around::Around::of(wall, land.samples);
+        let filled = grow::fill(land, around.partners, cancel);
+        worths.push(IN_ORDER * worth(&filled));
+        grown.push(filled);
+    }
+    let best = worths
         .into_iter()
-        .map(|field| (worth(&field), field))
+        .zip(grown)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, field)| field);
     Ok(best.unwrap_or_else(|| SymmetryField {

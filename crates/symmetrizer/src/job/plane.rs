@@ -4,11 +4,11 @@ use crate::apply::measure::asymmetry_of_outline;
 use crate::context::Context;
 use crate::deform::{Igarashi, Stiffness, carry};
 use crate::detect::{DetectParams, Want, Wanted};
-use crate::drawing::{Drawing, Outline};
+use crate::drawing::{Drawing, Outline, Turns};
 use crate::error::{Error, Result};
 use crate::geom::{Matrix3, Point, Vector};
 use crate::job::{Detected, Measured, Symmetrized, made};
-use crate::optimize::orbit::Goal;
+use crate::optimize::orbit::{Goal, Orbit};
 use crate::optimize::outcome::mirrors;
 use crate::optimize::plan::goals;
 use crate::optimize::schedule::Settings;
@@ -18,7 +18,7 @@ use crate::shape::wall::Wall;
 use crate::shape::working::{Normalization, Working};
 use crate::shape::{ClosestPoint, Mesh, Surface};
 use crate::straighten::When;
-use crate::transform::Class;
+use crate::transform::{Class, Isometry};
 
 /// A drawing made symmetric, and how.
 pub struct Drawn {
@@ -29,26 +29,49 @@ pub struct Drawn {
 }
 
 impl Drawn {
-    /// The result's outline alone, exactly symmetric about its line to the last digit of a written file; see
-    /// [`Drawing::exact`].
+    /// The result's outline alone, exactly symmetric under its group of turns, or about its line, to the last digit of
+    /// a written file; see [`Drawing::exact`] and [`Drawing::exact_under`].
     ///
     /// # Errors
-    /// [`Error::Input`] where no line was found, or the symmetry is one of turns alone.
+    /// [`Error::Input`] where no symmetry was found, and those of the drawing.
     pub fn exact(&self) -> Result<Drawing> {
-        let line = self.job.after.as_ref().filter(|after| {
-            let turn = after.symmetries().iter().find(|s| s.class == Class::Proper);
-            let group = turn.and_then(|turn| after.group_of(turn.id));
-            group.is_none_or(|g| g.name.starts_with('D'))
-        });
-        let Some(after) = line else {
-            let what = "there is no line about which the drawing could be exactly symmetric";
+        let Some(after) = &self.job.after else {
+            let what = "there is no symmetry that the drawing could have exactly";
             return Err(Error::input(what, "write it without --exact"));
         };
-        let (plane, normalization) = (self.job.planes[1], after.working.normalization);
+        let normalization = after.working.normalization;
+        if let Some(turns) = self.job.goals.first().and_then(turns) {
+            return self.drawing.exact_under(&Turns {
+                center: normalization.to_document(&turns.center),
+                ..turns
+            });
+        }
+        let plane = self.job.planes[1];
         let on = normalization.to_document(&Point::from(plane.normal * plane.offset));
         self.drawing
             .exact(plane.normal, plane.normal.dot(&on.coords))
     }
+}
+
+/// The turns of a group that was made exact, about the point that they leave in its place; of its lines the one that
+/// is nearest to upright. `None` without turns.
+fn turns(goal: &Goal) -> Option<Turns> {
+    let Orbit::Group(elements) = &goal.orbit else {
+        return None;
+    };
+    let (lines, proper): (Vec<&Isometry>, Vec<&Isometry>) =
+        elements.iter().partition(|g| g.is_improper());
+    let turn = proper.first()?;
+    let back = nalgebra::Matrix2::identity() - turn.linear.fixed_view::<2, 2>(0, 0);
+    let center = back.try_inverse()? * turn.translation.xy();
+    let origin = Point::origin();
+    let normals = lines.iter().map(|g| g.nearest_mirror(&origin).normal);
+    let upright = normals.max_by(|a, b| a.x.abs().total_cmp(&b.x.abs()));
+    Some(Turns {
+        order: proper.len() + 1,
+        center: Point::new(center.x, center.y, 0.0),
+        mirror: upright.map(|n| if n.x < 0.0 { -n } else { n }),
+    })
 }
 
 /// Share of an outline that one line must hold for: a drawing of which only a part has a line, straight or bent, is

@@ -16,6 +16,7 @@ pub mod plan;
 mod rounds;
 pub mod schedule;
 pub mod tangles;
+mod tidy;
 pub mod untangle;
 
 pub use mend::mend;

@@ -12,6 +12,7 @@ use crate::optimize::moving::Moving;
 use crate::optimize::outcome::{Optimized, Outcome, Step, mirrors, next_id};
 use crate::optimize::params::OptimizeParams;
 use crate::optimize::part::part;
+use crate::optimize::tidy::tidied;
 use crate::optimize::untangle::untangle;
 use crate::patch::{Symmetry, carry_ids};
 use crate::sample::{Sample, Samples};
@@ -248,10 +249,11 @@ impl Schedule<'_> {
             plane = done.plane;
             positions = done.positions;
         }
-        if self.settings.wall.is_some() {
+        if let Some(wall) = self.settings.wall {
             // Thin limbs that were pressed together have no thickness to keep them apart.
             let rest = self.moving.deformer.rest();
             positions = untangle(rest, rest.with_positions(positions)).0.positions;
+            positions = tidied(wall, positions, &plane)?;
         }
         Ok(Optimized {
             positions,

@@ -1,17 +1,15 @@
-//! A canvas as pixels: the pictures copied as they are, the rest drawn over them by resvg.
+//! A canvas as pixels: the pictures copied as they are, the rest drawn over them.
 //!
 //! Copying keeps every pixel of a picture, and spares encoding each one only to decode it again.
 
 use std::io::Cursor;
-use std::sync::{Arc, OnceLock};
 
 use image::{ImageFormat, Rgba, RgbaImage};
-use resvg::tiny_skia::{Pixmap, Transform};
-use resvg::usvg::{self, fontdb};
 
 use crate::error::{Error, Result};
 use crate::picture::canvas::Canvas;
 use crate::picture::svg;
+use crate::raster::pixels;
 
 /// The largest page, pixels.
 const MAX_AREA: u64 = 1 << 28;
@@ -36,7 +34,7 @@ pub(super) fn image(canvas: &Canvas) -> Result<RgbaImage> {
     for placed in &canvas.images {
         image::imageops::overlay(&mut page, &placed.image, placed.x.into(), placed.y.into());
     }
-    let drawn = overlay(canvas)?;
+    let drawn = pixels(&svg::overlay(canvas), None, None)?;
     for (below, above) in page.pixels_mut().zip(drawn.pixels()) {
         // Premultiplied colours of resvg over the opaque page.
         let through = 255 - u32::from(above.alpha());
@@ -50,32 +48,4 @@ pub(super) fn image(canvas: &Canvas) -> Result<RgbaImage> {
         ];
     }
     Ok(page)
-}
-
-fn overlay(canvas: &Canvas) -> Result<Pixmap> {
-    let options = usvg::Options {
-        fontdb: fonts(),
-        font_family: "DejaVu Sans".into(),
-        ..usvg::Options::default()
-    };
-    let fail = |what: String| Error::Unsupported(format!("the page cannot be drawn: {what}"));
-    let tree =
-        usvg::Tree::from_str(&svg::overlay(canvas), &options).map_err(|e| fail(e.to_string()))?;
-    let mut pixmap = Pixmap::new(canvas.width, canvas.height)
-        .ok_or_else(|| fail("its size is out of range".into()))?;
-    resvg::render(&tree, Transform::identity(), &mut pixmap.as_mut());
-    Ok(pixmap)
-}
-
-/// DejaVu Sans, which comes with the library, so that pictures are the same on every machine.
-fn fonts() -> Arc<fontdb::Database> {
-    static FONTS: OnceLock<Arc<fontdb::Database>> = OnceLock::new();
-    let load = || {
-        let mut fonts = fontdb::Database::new();
-        fonts.load_font_data(dejavu::sans::regular().to_vec());
-        fonts.load_font_data(dejavu::sans::bold().to_vec());
-        fonts.set_sans_serif_family("DejaVu Sans");
-        Arc::new(fonts)
-    };
-    FONTS.get_or_init(load).clone()
 }

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::context::Context;
 use crate::error::{Error, Result};
-use crate::geom::Ambient;
+use crate::geom::{Ambient, Point};
 use crate::sample::samples::{Describer, Sample, SampleParams, Samples};
 use crate::sample::signature::{SCALES, Signature};
 use crate::shape::wall::Wall;
@@ -13,6 +13,9 @@ use crate::shape::wall::Wall;
 const LEAST: usize = 8;
 /// A ring around which a radius reaches further than this share says nothing of that radius.
 const AROUND: f64 = 0.25;
+/// Chords run between mean places over this share of the radius to either side: what is traced from a bitmap has
+/// teeth of a pixel, which turn by as much as fingers do.
+const SMOOTH: f64 = 0.5;
 /// Neighbours along the ring, in samples.
 const NEXT: usize = 2;
 
@@ -21,7 +24,10 @@ const NEXT: usize = 2;
 /// that over r; the same for a shape and its mirror image, as rings run round shapes to their left.
 pub fn signature(wall: &Wall, ring: usize, along: f64, r0: f64) -> Signature {
     let length = wall.length(ring);
-    let turn = |s: f64, r: f64| turning(wall, ring, s, r);
+    let turn = |s: f64, r: f64| {
+        let place = |way: f64| wall.mean_place(ring, s + way, SMOOTH * r);
+        turned([place(-r), place(0.0), place(r)])
+    };
     let at = |scale: usize| {
         let r = r0 * f64::from(1 << scale);
         if r > AROUND * length {
@@ -35,7 +41,11 @@ pub fn signature(wall: &Wall, ring: usize, along: f64, r0: f64) -> Signature {
 
 /// The angle by which a ring turns at the length `along` from the chord over `radius` before to that behind, radians.
 pub fn turning(wall: &Wall, ring: usize, along: f64, radius: f64) -> f64 {
-    let [a, b, c] = [-radius, 0.0, radius].map(|way| wall.place(ring, along + way));
+    turned([-radius, 0.0, radius].map(|way| wall.place(ring, along + way)))
+}
+
+/// The angle between the ways from the first place to the second and on to the third.
+fn turned([a, b, c]: [Point; 3]) -> f64 {
     let (u, v) = (b - a, c - b);
     (u.x * v.y - u.y * v.x).atan2(u.dot(&v))
 }

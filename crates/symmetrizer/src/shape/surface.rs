@@ -67,6 +67,13 @@ impl Surface {
         Self::new(positions, Arc::clone(&self.triangles))
     }
 
+    /// The area-weighted mean of its vertices.
+    pub fn centroid(&self) -> Point {
+        let weighted = self.positions.iter().zip(&self.vertex_areas);
+        let sum: Vector = weighted.map(|(x, a)| x.coords * *a).sum();
+        Point::from(sum / self.area())
+    }
+
     /// Corner positions of triangle `face`.
     pub fn corners(&self, face: u32) -> [Point; 3] {
         self.triangles[face as usize].map(|v| self.positions[v as usize])

@@ -4,7 +4,7 @@
 //! whose normals lie in the plane, whose closest points are those of the outline, and whose samples lie on it.
 
 use crate::error::{Error, Result};
-use crate::geom::Point;
+use crate::geom::{Point, Vector};
 use crate::shape::surface::{Surface, SurfacePoint};
 use crate::shape::working::Normalization;
 
@@ -13,6 +13,8 @@ const HALF: f64 = 5e-4;
 /// Longest edge, fraction of L, and the number of edges above which they may be longer.
 const PIECE: f64 = 0.004;
 const MOST: f64 = 100_000.0;
+/// Places to either side that a mean is taken over.
+const MEANS: i32 = 3;
 
 /// The wall over closed rings.
 #[derive(Debug, Clone)]
@@ -87,8 +89,8 @@ impl Wall {
 
     /// The length of a ring, fraction of L.
     pub fn length(&self, ring: usize) -> f64 {
-        let range = &self.rings[ring];
-        self.lengths[range.clone()].iter().sum()
+        let last = self.rings[ring].end - 1;
+        self.starts[last] + self.lengths[last]
     }
 
     /// The point of the outline at the length `along` from the start of a ring, around which it runs again and
@@ -158,6 +160,13 @@ impl Wall {
     pub fn place(&self, ring: usize, along: f64) -> Point {
         self.surface.point(&self.at(ring, along))
     }
+
+    /// The mean place over the length `half` to either side of that.
+    pub fn mean_place(&self, ring: usize, along: f64, half: f64) -> Point {
+        let steps = (-MEANS..=MEANS).map(|k| f64::from(k) / f64::from(MEANS));
+        let places = steps.map(|step| self.place(ring, along + step * half).coords);
+        Point::from(places.sum::<Vector>() / f64::from(2 * MEANS + 1))
+    }
 }
 
 /// The centroid of the rings' length and L = 4 x its rms radius; the length itself, fraction of L.
@@ -177,7 +186,7 @@ fn normalize(rings: &[Vec<Point>]) -> Result<(Normalization, f64)> {
     }
     let center = edges()
         .map(|(a, b)| nalgebra::center(a, b).coords * (b - a).norm())
-        .sum::<crate::geom::Vector>()
+        .sum::<Vector>()
         / total;
     // Along a straight edge the mean of x^2 is that of its ends and its middle by Simpson's rule.
     let square = |x: &Point| (x.coords - center).norm_squared();

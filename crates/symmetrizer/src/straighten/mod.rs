@@ -1,6 +1,7 @@
 //! Straightening: a bent shape whose local mirrors vary along it is turned, place by place, until they are
 //! one.
 
+mod angles;
 mod bend;
 pub mod blend;
 mod equations;

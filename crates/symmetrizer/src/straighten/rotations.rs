@@ -9,12 +9,13 @@ use nalgebra::DMatrix;
 
 use crate::deform::solver::{Entries, Factorized, SolveError};
 use crate::error::Error;
-use crate::field::SymmetryField;
 use crate::field::grow::Land;
+use crate::field::{Partner, SymmetryField};
 use crate::geom::{Ambient, Matrix3, Vector, nearest_orthogonal};
+use crate::straighten::angles;
 
 /// W, beside this much for all edges of a sample.
-const PAIRS: f64 = 3.0;
+pub(super) const PAIRS: f64 = 3.0;
 const EDGES: f64 = 8.0;
 /// Mass of a sample without a partner: it follows.
 const FOLLOWS: f64 = 0.02;
@@ -42,17 +43,13 @@ pub fn solved(land: &Land<'_>, field: &SymmetryField) -> Result<Vec<Matrix3>, Er
 }
 
 fn rotations(land: &Land<'_>, field: &SymmetryField) -> Result<Vec<Matrix3>, SolveError> {
-    // In the plane the last row is known.
-    let plane = land.samples.ambient == Ambient::Plane;
-    let wanted = if plane { 1 } else { 2 };
-    let (first, others) = rayon::join(
-        || rows(land, field, -1.0, 1),
-        || rows(land, field, 1.0, wanted),
-    );
+    if land.samples.ambient == Ambient::Plane {
+        return angles::solved(land, field);
+    }
+    let (first, others) = rayon::join(|| rows(land, field, -1.0, 1), || rows(land, field, 1.0, 2));
     let (first, others) = (first?, others?);
     let matrix = |i: usize| {
-        let last = others.get(1).map_or(Vector::z(), |rows| rows[i]);
-        let rows = [first[0][i], others[0][i], last];
+        let rows = [first[0][i], others[0][i], others[1][i]];
         Matrix3::from_rows(&rows.map(|row| row.transpose()))
     };
     let mut all: Vec<Matrix3> = (0..land.reach.neighbors.len()).map(matrix).collect();
@@ -63,6 +60,18 @@ fn rotations(land: &Land<'_>, field: &SymmetryField) -> Result<Vec<Matrix3>, Sol
         }
     }
     Ok(all.iter().map(|m| nearest_orthogonal(m, false)).collect())
+}
+
+/// What a pair has to say, 0 to 1: less the further the surface lies from its image.
+pub(super) fn say(partner: &Partner) -> f64 {
+    (-(partner.residual / RESIDUAL).powi(2)).exp().max(LEAST)
+}
+
+/// The factor of the weights between neighbours for which they have 8 for each sample in the mean.
+pub(super) fn edge_scale(land: &Land<'_>) -> f64 {
+    let reach = land.reach;
+    let all: f64 = reach.edges.iter().map(|(_, w)| 2.0 * w).sum();
+    EDGES * reach.neighbors.len() as f64 / all.max(f64::MIN_POSITIVE)
 }
 
 /// The `wanted` smallest eigenvectors for the rows of sign `s`, a vector for each sample.
@@ -79,7 +88,7 @@ fn rows(
     for (p, (partner, map)) in field.partners.iter().zip(&field.maps).enumerate() {
         if let (Some(partner), Some(map)) = (partner, map) {
             mass[p] = 1.0;
-            let c = PAIRS * (-(partner.residual / RESIDUAL).powi(2)).exp().max(LEAST);
+            let c = PAIRS * say(partner);
             add_pair(
                 &mut entries,
                 p,
@@ -93,11 +102,7 @@ fn rows(
     for (i, m) in mass.iter().enumerate() {
         entries.add(i, i, SHIFT * m);
     }
-    let axes = match land.samples.ambient {
-        Ambient::Plane => 2,
-        Ambient::Space => 3,
-    };
-    let vectors = smallest(entries.factorized(3 * n)?, &mass, wanted, axes)?;
+    let vectors = smallest(entries.factorized(3 * n)?, &mass, wanted)?;
     let split = |x: &Vec<f64>| x.chunks_exact(3).map(Vector::from_column_slice).collect();
     Ok(vectors.iter().map(split).collect())
 }
@@ -105,10 +110,8 @@ fn rows(
 /// w |rho_i - rho_j|^2 over the edges between neighbours, 8 for each sample in the mean, more where the surface
 /// is stiff.
 fn add_edges(entries: &mut Entries, land: &Land<'_>) {
-    let reach = land.reach;
-    let all: f64 = reach.edges.iter().map(|(_, w)| 2.0 * w).sum();
-    let scale = EDGES * reach.neighbors.len() as f64 / all.max(f64::MIN_POSITIVE);
-    for &([i, j], w) in &reach.edges {
+    let scale = edge_scale(land);
+    for &([i, j], w) in &land.reach.edges {
         let w = scale * w * land.firmness([i, j]);
         let (i, j) = (i as usize, j as usize);
         for a in 0..3 {
@@ -126,20 +129,16 @@ fn add_pair(entries: &mut Entries, p: usize, q: usize, a: &Matrix3, c: f64) {
     }
 }
 
-/// Inverse subspace iteration: the `wanted` smallest eigenvectors of a matrix against a diagonal mass, among those
-/// along the first `axes` of each sample's three, which the matrix does not mix with the others.
+/// Inverse subspace iteration: the `wanted` smallest eigenvectors of a matrix against a diagonal mass.
 fn smallest(
     mut matrix: Factorized,
     mass: &[f64],
     wanted: usize,
-    axes: usize,
 ) -> Result<Vec<Vec<f64>>, SolveError> {
     // Any start that is not orthogonal to what is sought.
     let start = |k: usize| -> Vec<f64> {
         let any = |i: usize| ((1 + k) as f64 * (i % 3 + 1) as f64 + 0.001 * i as f64).sin();
-        (0..mass.len())
-            .map(|i| if i % 3 < axes { any(i) } else { 0.0 })
-            .collect()
+        (0..mass.len()).map(any).collect()
     };
     let mut block: Vec<Vec<f64>> = (0..VECTORS).map(start).collect();
     orthonormalize(&mut block, mass);

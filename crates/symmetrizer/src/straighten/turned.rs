@@ -2,16 +2,20 @@
 
 use crate::deform::Tie;
 use crate::deform::harmonic::rotations_inside;
-use crate::deform::poisson::{integrate, integrate_tied};
+use crate::deform::poisson::{integrate, integrate_tied, relax_tied};
 use crate::error::Result;
 use crate::field::grow::Land;
 use crate::geom::{Matrix3, Point};
 use crate::shape::Surface;
 use crate::shape::sheet::Sheet;
 
+/// Rounds in which what a wall encloses is made as rigid as its pairs allow.
+const RELAXED: usize = 10;
+
 /// Vertex positions of `rest`, which is the surface of `land` or a later state of it, its vertices turned by
 /// `rotations` and `ties` opposite each other across x = 0. Over a wall all that it encloses is turned: from
-/// the outline inwards the rotations go on evenly.
+/// the outline inwards the rotations go on evenly, and with ties it is then as rigid as they allow: the rotations of
+/// a field are as even as they can be, so that at a hip the trunk would bend and the leg turn with it.
 ///
 /// # Errors
 /// [`crate::Error::Numerical`].
@@ -42,7 +46,7 @@ pub fn turned(
     let ties: Vec<Tie> = ties.iter().map(tie).collect();
     let moved = match ties.as_slice() {
         [] => integrate(&sheet.surface, &inside, None, &[])?,
-        ties => integrate_tied(&sheet.surface, &inside, None, ties)?,
+        ties => relax_tied(&sheet.surface, &inside, None, ties, RELAXED)?,
     };
     Ok(sheet.wall(&wall, &moved))
 }

@@ -7,6 +7,9 @@ use symmetrizer::shape::io::Format;
 #[path = "../../../../fuzz/src/check.rs"]
 mod check;
 
+#[path = "../../../../fuzz/src/drawing.rs"]
+mod drawing;
+
 const TARGETS: [(&str, Format); 7] = [
     ("obj", Format::Obj),
     ("ply", Format::Ply),
@@ -47,4 +50,22 @@ fn seeds_are_good_files() {
             assert!(read.is_ok(), "{target}: {read:?}");
         }
     }
+}
+
+#[test]
+fn drawings_pass_their_check() {
+    let fuzz = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz");
+    let mut seeds = 0;
+    for kind in ["seeds", "regressions"] {
+        let Ok(files) = std::fs::read_dir(fuzz.join(kind).join("drawing")) else {
+            continue;
+        };
+        for file in files {
+            let path = file.unwrap().path();
+            println!("{}", path.display());
+            drawing::check(&std::fs::read(&path).unwrap());
+            seeds += u32::from(kind == "seeds");
+        }
+    }
+    assert!(seeds >= 3, "{seeds}");
 }

@@ -104,11 +104,26 @@ impl Igarashi {
     /// # Errors
     /// [`Error::Numerical`].
     pub fn filled(&self, positions: &[Point]) -> Result<Vec<Point>> {
+        self.filled_but(positions, |_| false)
+    }
+
+    /// Where the wall's vertices are if it is at `positions` but for the starts of its `free` edges, which go where it is
+    /// as rigid as the others allow.
+    ///
+    /// # Errors
+    /// [`Error::Numerical`].
+    pub fn let_go(&self, positions: &[Point], free: &[bool]) -> Result<Vec<Point>> {
+        let inside = self.filled_but(positions, |edge| free[edge])?;
+        Ok(self.sheet.wall(&self.wall, &inside))
+    }
+
+    fn filled_but(&self, positions: &[Point], free: impl Fn(usize) -> bool) -> Result<Vec<Point>> {
         let moved = self.wall.surface.with_positions(positions.to_vec());
         let motions = carry::motions(&self.wall.surface, &moved);
         let mut known: Vec<Option<Matrix3>> = vec![None; self.positions.len()];
         let mut places: Vec<Option<Point>> = vec![None; self.positions.len()];
-        for (e, &v) in self.sheet.corners.iter().enumerate() {
+        let held = self.sheet.corners.iter().enumerate();
+        for (e, &v) in held.filter(|(e, _)| !free(*e)) {
             let x = &positions[2 * e];
             known[v as usize] = Some(motions[2 * e].rotation);
             places[v as usize] = Some(Point::new(x.x, x.y, 0.0));

@@ -5,11 +5,12 @@ mod tied;
 
 use crate::deform::bridges::bridges;
 use crate::deform::laplacian::edge_weights;
-use crate::deform::{Pull, Tie, check_pulls, check_stiffness, failure};
+use crate::deform::{Pull, Tie, carry, check_pulls, check_stiffness, failure};
 use crate::error::{Error, Result};
 use crate::geom::{Matrix3, Point, Vector};
 use crate::shape::Surface;
 use system::EdgeSystem;
+use tied::Tied;
 
 /// Vertex positions that minimise sum over edges of k_ij |(x_i - x_j) - (R_i + R_j) (p_i - p_j) / 2|^2 plus the
 /// `pulls`: the Poisson equation of a rotation field (Yu et al. 2004). One linear solve, exact where
@@ -68,6 +69,22 @@ pub fn integrate_tied(
     stiffness: Option<&[f64]>,
     ties: &[Tie],
 ) -> Result<Vec<Point>> {
+    relax_tied(rest, rotations, stiffness, ties, 0)
+}
+
+/// [`integrate_tied`], then `rounds` in which each vertex is turned as its surroundings were and the positions are
+/// found again (local and global, Sorkine and Alexa 2007): what is prescribed is where it begins, and the ties hold
+/// against the stretch of edges alone.
+///
+/// # Errors
+/// Those of [`integrate_tied`].
+pub fn relax_tied(
+    rest: &Surface,
+    rotations: &[Matrix3],
+    stiffness: Option<&[f64]>,
+    ties: &[Tie],
+    rounds: usize,
+) -> Result<Vec<Point>> {
     if rotations.len() != rest.positions.len() {
         return Err(Error::params("rotations", "needs one for each vertex"));
     }
@@ -84,7 +101,18 @@ pub fn integrate_tied(
         ..*t
     };
     let ties: Vec<Tie> = ties.iter().map(scaled).collect();
-    tied::solve(rest, &edges, rotations, &ties).map_err(|e| failure(e, 0))
+    let relaxed = || {
+        let mut tied = Tied::new(rest, &edges, &ties)?;
+        let mut moved = tied.turned(rotations)?;
+        for _ in 0..rounds {
+            let now = rest.with_positions(moved);
+            let motions = carry::motions(rest, &now);
+            let turns: Vec<Matrix3> = motions.iter().map(|m| m.rotation).collect();
+            moved = tied.turned(&turns)?;
+        }
+        Ok(moved)
+    };
+    relaxed().map_err(|e| failure(e, 0))
 }
 
 /// Weight of the edge that ties a separate component to its nearest neighbour.

@@ -1,7 +1,7 @@
 //! Prescribed rotations with pairs of points that are tied to each other, both ends free.
 
 use crate::deform::Tie;
-use crate::deform::solver::{Entries, SolveError};
+use crate::deform::solver::{Entries, Factorized, SolveError};
 use crate::geom::{Matrix3, Point, Vector};
 use crate::shape::Surface;
 
@@ -10,17 +10,29 @@ const RIDGE: f64 = 1e-8;
 /// What a tie does to each axis: x changes sides.
 const SIGNS: [f64; 3] = [-1.0, 1.0, 1.0];
 
-/// Positions that minimise the edges' misfit to the rotations plus that of the ties, see
-/// [`super::integrate_tied`]. Axes fall apart; those of the same sign share a matrix.
-pub fn solve(
-    rest: &Surface,
-    edges: &[([u32; 2], f64)],
-    rotations: &[Matrix3],
-    ties: &[Tie],
-) -> Result<Vec<Point>, SolveError> {
-    let wanted = wanted(rest, edges, rotations);
-    let mut moved = rest.positions.clone();
-    for sign in [-1.0, 1.0] {
+/// A surface whose edges are to be turned as asked and whose pairs are tied, see [`super::integrate_tied`]. Axes fall
+/// apart; those of the same sign share a matrix.
+pub struct Tied<'a> {
+    rest: &'a Surface,
+    edges: &'a [([u32; 2], f64)],
+    /// For each sign.
+    systems: [System; 2],
+}
+
+/// What is to be solved for the axes of one sign.
+struct System {
+    sign: f64,
+    ridge: f64,
+    matrix: Factorized,
+}
+
+impl System {
+    fn new(
+        rest: &Surface,
+        edges: &[([u32; 2], f64)],
+        ties: &[Tie],
+        sign: f64,
+    ) -> Result<Self, SolveError> {
         let mut entries = Entries::default();
         for &([i, j], k) in edges {
             entries.add_square(&[(i as usize, 1.0), (j as usize, -1.0)], k);
@@ -31,18 +43,47 @@ pub fn solve(
         let n = rest.positions.len();
         let ridge = RIDGE * entries.mean_diagonal(n);
         (0..n).for_each(|v| entries.add(v, v, ridge));
-        let mut matrix = entries.factorized(n)?;
-        for axis in (0..3).filter(|&a| SIGNS[a] == sign) {
-            // A second solve takes out what the first one's ridge held back.
-            for _ in 0..2 {
-                let held = wanted.iter().zip(&moved);
-                let mut x: Vec<f64> = held.map(|(w, x)| w[axis] + ridge * x[axis]).collect();
-                matrix.solve(&mut x)?;
-                moved.iter_mut().zip(x).for_each(|(p, x)| p[axis] = x);
+        Ok(Self {
+            sign,
+            ridge,
+            matrix: entries.factorized(n)?,
+        })
+    }
+}
+
+impl<'a> Tied<'a> {
+    /// Of `rest` with these weighted edges.
+    pub fn new(
+        rest: &'a Surface,
+        edges: &'a [([u32; 2], f64)],
+        ties: &[Tie],
+    ) -> Result<Self, SolveError> {
+        let [first, others] = [-1.0, 1.0].map(|sign| System::new(rest, edges, ties, sign));
+        Ok(Self {
+            rest,
+            edges,
+            systems: [first?, others?],
+        })
+    }
+
+    /// Positions that minimise the edges' misfit to the rotations plus that of the ties.
+    pub fn turned(&mut self, rotations: &[Matrix3]) -> Result<Vec<Point>, SolveError> {
+        let wanted = wanted(self.rest, self.edges, rotations);
+        let mut moved = self.rest.positions.clone();
+        for system in &mut self.systems {
+            for axis in (0..3).filter(|&a| SIGNS[a] == system.sign) {
+                // A second solve takes out what the first one's ridge held back.
+                for _ in 0..2 {
+                    let held = wanted.iter().zip(&moved);
+                    let held = held.map(|(w, x)| w[axis] + system.ridge * x[axis]);
+                    let mut x: Vec<f64> = held.collect();
+                    system.matrix.solve(&mut x)?;
+                    moved.iter_mut().zip(x).for_each(|(p, x)| p[axis] = x);
+                }
             }
         }
+        Ok(moved)
     }
-    Ok(moved)
 }
 
 /// The right-hand side of the edges.

@@ -4,14 +4,19 @@
 mod panel;
 mod votes;
 
+use crate::context::Context;
 use crate::deform::Igarashi;
 use crate::error::Result;
 use crate::job::pictures::plots::plot_title;
-use crate::job::{Detected, Measured, Symmetrized};
+use crate::job::{Detected, Measured, Symmetrized, plane};
 use crate::optimize::outcome::mirrors;
+use crate::optimize::schedule::Settings;
+use crate::optimize::{OptimizeParams, optimize};
 use crate::patch::Symmetry;
 use crate::picture::Canvas;
 use crate::picture::canvas::{GREY, INK, Text};
+use crate::shape::wall::Wall;
+use crate::shape::working::Working;
 use panel::{Frame, Panel};
 use votes::density;
 
@@ -31,7 +36,8 @@ pub(super) fn before_after(
     let Some(wall) = &job.before.wall else {
         return Ok(None);
     };
-    let rows = if job.after.is_some() { 2 } else { 1 };
+    let contracted = contracted(job, wall)?;
+    let rows = 1 + u32::from(contracted.is_some()) + u32::from(job.after.is_some());
     let mut page = Canvas::new(3 * SIDE, HEAD + rows * SIDE);
     let width = f64::from(page.width()) - 32.0;
     page.text(Text::new(title, 16.0, 28.0, 20.0).bold().within(width));
@@ -61,16 +67,63 @@ pub(super) fn before_after(
             &body.sheet().surface.positions,
         ),
     }
-    if let Some((after, moved)) = job.after.as_ref().and_then(|a| Some((a, a.wall.as_ref()?))) {
+    let after = job.after.as_ref().map(|after| (after, Some(job.planes[1])));
+    let states = [
+        (
+            contracted.as_ref().map(|state| (state, None)),
+            ["contracted: each line for its part", "contracted"],
+        ),
+        (after, ["result and its mirror image", "after"]),
+    ];
+    let states = states
+        .into_iter()
+        .filter_map(|(state, captions)| Some((state?, captions)));
+    for (row, ((state, image), captions)) in (1..).zip(states) {
+        let Some(moved) = &state.wall else { continue };
         let frame = Frame::around(moved).as_large_as(&frame);
-        let mut panel = Panel::new(&mut page, place(0, 1), frame, "result and its mirror image");
-        panel.state(after, moved, Some(job.planes[1]));
-        density(after, bandwidth).draw(&mut page, place(1, 1), "after");
-        let inside = body.filled(&after.working.surface.positions)?;
-        let mut panel = Panel::new(&mut page, place(2, 1), frame, "");
+        let mut panel = Panel::new(&mut page, place(0, row), frame, captions[0]);
+        panel.state(state, moved, image);
+        density(state, bandwidth).draw(&mut page, place(1, row), captions[1]);
+        let inside = body.filled(&state.working.surface.positions)?;
+        let mut panel = Panel::new(&mut page, place(2, row), frame, "");
         panel.mesh(&body.sheet().surface.triangles, &inside);
     }
     Ok(Some(page))
+}
+
+/// The state of figure 2 between input and result, where the result went another way: a bent shape whose lines have
+/// been contracted, each for the part that it holds for, and not been merged.
+fn contracted(job: &Symmetrized, wall: &Wall) -> Result<Option<Detected>> {
+    let undone = job.bend.as_ref().is_some_and(|b| b.straight.is_some());
+    if !undone || mirrors(&job.before.detection).next().is_none() {
+        return Ok(None);
+    }
+    let params = &job.report.head.params;
+    let detect = plane::sought(params);
+    let settings = Settings {
+        wall: Some(wall),
+        stiffness: None,
+        region: None,
+        detect: &detect,
+        deform: &params.deform,
+        optimize: &OptimizeParams {
+            merge_angle: 0.0,
+            final_steps: 0,
+            finish_rounds: 0,
+            ..params.optimize.clone()
+        },
+    };
+    let mut ctx = Context::new(job.report.head.seed);
+    let before = &job.before;
+    let surface = &before.working.surface;
+    let done = optimize(surface, &before.detection, settings, &mut ctx)?;
+    let working = Working {
+        surface: surface.with_positions(done.positions.clone()),
+        ..before.working.clone()
+    };
+    let state = (working, Some(wall.moved(done.positions)));
+    let diagonal = before.diagonal * before.working.normalization.scale;
+    Detected::find(state, diagonal, &detect, &mut ctx).map(Some)
 }
 
 /// A drawing with the lines that were found.

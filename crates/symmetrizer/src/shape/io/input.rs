@@ -51,14 +51,14 @@ pub(super) fn check_size(bytes: u64) -> Result<()> {
     }
     Err(Error::input(
         "the file is larger than 4 GiB",
-        "simplify the mesh first",
+        "simplify it first",
     ))
 }
 
 /// What it is and what to do instead, if it is no regular file.
 fn irregular(metadata: &Metadata) -> Option<(&'static str, &'static str)> {
     if metadata.is_dir() {
-        return Some(("this is a directory", "name a mesh file in it"));
+        return Some(("this is a directory", "name a file in it"));
     }
     #[cfg(unix)]
     {
@@ -81,5 +81,5 @@ fn irregular(metadata: &Metadata) -> Option<(&'static str, &'static str)> {
             ));
         }
     }
-    (!metadata.is_file()).then_some(("this is not a regular file", "name a mesh file"))
+    (!metadata.is_file()).then_some(("this is not a regular file", "name a mesh or a drawing"))
 }
