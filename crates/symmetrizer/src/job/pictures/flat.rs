@@ -104,6 +104,7 @@ fn contracted(job: &Symmetrized, wall: &Wall) -> Result<Option<Detected>> {
         wall: Some(wall),
         stiffness: None,
         region: None,
+        part: false,
         detect: &detect,
         deform: &params.deform,
         optimize: &OptimizeParams {
