@@ -4,7 +4,7 @@ use crate::geom::{Point, Vector};
 use crate::shape::{Hit, Surface};
 
 /// Vertex normals that lean further than 35 degrees from the face mark a crease.
-const SMOOTH_COS: f64 = 0.82;
+pub(super) const SMOOTH_COS: f64 = 0.82;
 
 /// The hit moved from the flat triangle to the curved surface that its vertex normals suggest.
 ///

@@ -74,6 +74,17 @@ impl Surface {
         Point::from(sum / self.area())
     }
 
+    /// For each vertex whether the normals of all faces at it lean from its own by no more than the angle of this cosine.
+    pub fn smooth_vertices(&self, min_cos: f64) -> Vec<bool> {
+        let mut smooth = vec![true; self.positions.len()];
+        for (corners, face) in self.triangles.iter().zip(&self.face_normals) {
+            for &v in corners {
+                smooth[v as usize] &= self.vertex_normals[v as usize].dot(face) >= min_cos;
+            }
+        }
+        smooth
+    }
+
     /// Corner positions of triangle `face`.
     pub fn corners(&self, face: u32) -> [Point; 3] {
         self.triangles[face as usize].map(|v| self.positions[v as usize])

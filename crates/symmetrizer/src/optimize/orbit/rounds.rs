@@ -9,6 +9,7 @@ use crate::deform::control::{Decimated, decimated, stiffness_on};
 use crate::deform::{Deformer, carry};
 use crate::error::{Error, Result};
 use crate::geom::{Point, Vector};
+use crate::optimize::contact::SMOOTH_COS;
 use crate::optimize::orbit::goal::Goal;
 use crate::optimize::orbit::ground::{Member, members};
 use crate::optimize::orbit::means::{Means, Scene};
@@ -255,14 +256,18 @@ impl Cloth {
         Ok(false)
     }
 
-    /// The vertices of `next` slid over it towards where they began: along the surface nothing is to be gained.
+    /// The vertices of `next` slid over it towards where they began: along a smooth surface nothing is to be gained.
     fn without_drift(&self, next: &Surface) -> Vec<Point> {
-        let all = next.positions.iter().zip(&next.vertex_normals);
-        let slid = all.zip(&self.start.positions).map(|((x, n), start)| {
-            let back = start - x;
-            x + (back - n * n.dot(&back)) * SLIDE
-        });
-        slid.collect()
+        let smooth = next.smooth_vertices(SMOOTH_COS);
+        let slid = |v: usize| {
+            let (x, n) = (next.positions[v], next.vertex_normals[v]);
+            let back = self.start.positions[v] - x;
+            match smooth[v] {
+                true => x + (back - n * n.dot(&back)) * SLIDE,
+                false => x,
+            }
+        };
+        (0..smooth.len()).map(slid).collect()
     }
 
     /// `next` with the corners of faces that would be turned over where they are now.
