@@ -230,7 +230,10 @@ fn timed_run(mesh: &Mesh) -> Vec<(String, f64)> {
 }
 
 fn compare() {
-    println!("\n{:<8} {:>9} {:>24} {:>24} {:>24}", "seconds", "triangles", "detection", "contraction", "merging");
+    println!(
+        "\n{:<8} {:>9} {:>24} {:>24} {:>24}",
+        "seconds", "triangles", "detection", "contraction", "merging"
+    );
     for row in PAPER {
         let Some(path) = common::data(row.file) else {
             continue;
@@ -238,7 +241,9 @@ fn compare() {
         let mesh = common::load(&path);
         let run = timed_run(&mesh);
         let of = |names: &[&str]| {
-            let stages = run.iter().filter(|(stage, _)| names.contains(&stage.as_str()));
+            let stages = run
+                .iter()
+                .filter(|(stage, _)| names.contains(&stage.as_str()));
             stages.map(|(_, seconds)| seconds).sum::<f64>()
         };
         let all: f64 = run.iter().map(|(_, seconds)| seconds).sum();
@@ -249,7 +254,14 @@ fn compare() {
             None => format!("{here:>7.2} (2007:      -)"),
         });
         let cells: Vec<String> = cells.collect();
-        println!("{:<8} {:>9} {}", row.model, row.triangles, cells.join("   "));
+        println!(
+            "{:<8} {:>9} {}",
+            row.model,
+            row.triangles,
+            cells.join("   ")
+        );
     }
-    println!("(detection includes that of the result; contraction the finish; merging the undoing of bends)");
+    println!(
+        "(detection includes that of the result; contraction the finish; merging the undoing of bends)"
+    );
 }

@@ -55,7 +55,9 @@ fn residual(mesh: &Mesh, motions: &[Isometry]) -> f64 {
 
 /// The shape of a truth file without its noise, in the file's coordinates, and the motion from rest to file.
 fn truth(name: &str, mesh: &Mesh) -> (Mesh, serde_json::Value) {
-    let path = data(name).expect("beside the model").with_extension("truth.json");
+    let path = data(name)
+        .expect("beside the model")
+        .with_extension("truth.json");
     let text = std::fs::read_to_string(path).expect("a truth file");
     let truth: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let number = |v: &serde_json::Value| v.as_f64().expect("a number");
@@ -67,7 +69,11 @@ fn truth(name: &str, mesh: &Mesh) -> (Mesh, serde_json::Value) {
         };
         Point::new(row(0), row(1), row(2))
     };
-    let rest = truth["rest"].as_array().expect("vertices").iter().map(place);
+    let rest = truth["rest"]
+        .as_array()
+        .expect("vertices")
+        .iter()
+        .map(place);
     let clean = Mesh {
         positions: rest.collect(),
         ..mesh.clone()
@@ -80,11 +86,19 @@ fn to_clean(mesh: &Mesh, clean: &Mesh) -> f64 {
     let pairs: Vec<_> = mesh.positions.iter().zip(&clean.positions).collect();
     let pairs: Vec<symmetrizer::transform::Correspondence> = pairs
         .iter()
-        .map(|(p, q)| symmetrizer::transform::Correspondence { p: **p, q: **q, weight: 1.0 })
+        .map(|(p, q)| symmetrizer::transform::Correspondence {
+            p: **p,
+            q: **q,
+            weight: 1.0,
+        })
         .collect();
     let ambient = symmetrizer::transform::Ambient::Space;
-    let fit = symmetrizer::transform::optimal::optimal_rigid(&pairs, None, ambient).expect("a motion");
-    let sum: f64 = pairs.iter().map(|c| (fit.isometry.apply(&c.p) - c.q).norm_squared()).sum();
+    let fit =
+        symmetrizer::transform::optimal::optimal_rigid(&pairs, None, ambient).expect("a motion");
+    let sum: f64 = pairs
+        .iter()
+        .map(|c| (fit.isometry.apply(&c.p) - c.q).norm_squared())
+        .sum();
     100.0 * (sum / pairs.len() as f64).sqrt() / clean.diagonal()
 }
 
@@ -93,7 +107,11 @@ fn is_closed(elements: &[Isometry], size: f64) -> bool {
     let near = |a: &Isometry, b: &Isometry| {
         (a.linear - b.linear).norm() < 1e-9 && (a.translation - b.translation).norm() < 1e-9 * size
     };
-    let all: Vec<Isometry> = elements.iter().copied().chain([Isometry::identity()]).collect();
+    let all: Vec<Isometry> = elements
+        .iter()
+        .copied()
+        .chain([Isometry::identity()])
+        .collect();
     let product = |a: &Isometry, b: &Isometry| all.iter().any(|c| near(&a.after(b), c));
     all.iter().all(|a| all.iter().all(|b| product(a, b)))
 }
@@ -112,7 +130,11 @@ fn noisy_groups_are_made_exact_down_to_their_tessellation() {
         let [goal] = goals(&done) else {
             panic!("{name}: {:?}", goals(&done));
         };
-        assert_eq!((goal.name.as_str(), goal.order), (group, Some(order)), "{name}");
+        assert_eq!(
+            (goal.name.as_str(), goal.order),
+            (group, Some(order)),
+            "{name}"
+        );
         let elements: Vec<Isometry> = exact(&done, group).elements.iter().map(isometry).collect();
         assert!(is_closed(&elements, mesh.diagonal()), "{name}");
         let [before, after, floor] =
@@ -122,13 +144,19 @@ fn noisy_groups_are_made_exact_down_to_their_tessellation() {
             "{name}: {before} -> {after}, floor {floor}"
         );
         let [was, is] = [&mesh, &done.shape].map(|shape| to_clean(shape, &clean));
-        assert!(is < 0.8 * was, "{name}: {was} -> {is} from the shape without noise");
+        assert!(
+            is < 0.8 * was,
+            "{name}: {was} -> {is} from the shape without noise"
+        );
         let Step::Orbits { predicted, .. } = done.report.steps[0] else {
             panic!("{name}");
         };
         let result = done.report.result.as_ref().expect("a result");
         let moved = result.distortion.rms / 100.0 * done.before.diagonal;
-        assert!(moved <= 1.3 * predicted, "{name}: moved {moved}, {predicted} predicted");
+        assert!(
+            moved <= 1.3 * predicted,
+            "{name}: moved {moved}, {predicted} predicted"
+        );
     }
 }
 
@@ -140,9 +168,20 @@ fn a_row_of_copies_becomes_one_shape_at_even_steps() {
     let (clean, _) = truth(name, &mesh);
     let done = run(&mesh, &Params::default());
     let row = goals(&done).first().expect("a goal");
-    assert_eq!((row.name.as_str(), row.order, row.kept), ("row 5", Some(5), true));
-    assert!(row.residual[1] < 0.4 * row.residual[0], "{:?}", row.residual);
-    let motions: Vec<Isometry> = exact(&done, "row 5").elements.iter().map(isometry).collect();
+    assert_eq!(
+        (row.name.as_str(), row.order, row.kept),
+        ("row 5", Some(5), true)
+    );
+    assert!(
+        row.residual[1] < 0.4 * row.residual[0],
+        "{:?}",
+        row.residual
+    );
+    let motions: Vec<Isometry> = exact(&done, "row 5")
+        .elements
+        .iter()
+        .map(isometry)
+        .collect();
     for (k, t) in motions.iter().enumerate() {
         let step = motions[1].translation * k as f64;
         assert!((t.translation - step).norm() < 1e-9 * mesh.diagonal());
@@ -161,7 +200,11 @@ fn six_elements_are_made_congruent_where_they_stand() {
     let all = goals(&done).iter().find(|g| g.name == "6 copies");
     let copies = all.expect("six copies");
     assert!(copies.kept && copies.order == Some(6), "{copies:?}");
-    assert!(copies.residual[1] < 0.85 * copies.residual[0], "{:?}", copies.residual);
+    assert!(
+        copies.residual[1] < 0.85 * copies.residual[0],
+        "{:?}",
+        copies.residual
+    );
     let result = done.report.result.as_ref().expect("a result");
     assert_eq!(result.distortion.new_crossings, 0);
     assert_eq!(result.distortion.inverted_faces, 0);
@@ -196,7 +239,11 @@ fn a_dented_vase_gets_its_mean_profile() {
     let done = run(&noisy, &Params::default());
     let goal = &goals(&done)[0];
     assert_eq!(goal.name, "revolution");
-    assert!(goal.residual[1] < 0.4 * goal.residual[0], "{:?}", goal.residual);
+    assert!(
+        goal.residual[1] < 0.4 * goal.residual[0],
+        "{:?}",
+        goal.residual
+    );
     let [was, is] = [&noisy, &done.shape].map(|shape| to_clean(shape, &clean));
     assert!(is < 0.85 * was, "{was} -> {is}");
 }
@@ -205,7 +252,12 @@ fn a_dented_vase_gets_its_mean_profile() {
 fn only_what_is_asked_for_is_made_exact() {
     let name = "truth/three_planes_superellipsoid.ply";
     let Some(path) = data(name) else { return };
-    let mesh = placed(&load(&path), Vector::new(0.3, 1.0, -0.4), 40.0, Vector::new(9.0, 5.0, 1.0));
+    let mesh = placed(
+        &load(&path),
+        Vector::new(0.3, 1.0, -0.4),
+        40.0,
+        Vector::new(9.0, 5.0, 1.0),
+    );
     let mut params = Params::default();
     params.detect.kinds = vec![symmetrizer::detect::Want::Rotation];
     params.optimize.max_symmetries = Some(1);
@@ -214,8 +266,14 @@ fn only_what_is_asked_for_is_made_exact() {
         panic!("{:?}", goals(&done));
     };
     let elements = &exact(&done, &goal.name).elements;
-    assert!(elements.iter().all(|m| !isometry(m).is_improper()), "{}", goal.name);
+    assert!(
+        elements.iter().all(|m| !isometry(m).is_improper()),
+        "{}",
+        goal.name
+    );
     params.optimize.only = Some(vec![77]);
-    let error = symmetrize(&mesh, &params, &mut Context::new(0)).err().expect("an error");
+    let error = symmetrize(&mesh, &params, &mut Context::new(0))
+        .err()
+        .expect("an error");
     assert!(error.to_string().contains("no symmetry 77"), "{error}");
 }

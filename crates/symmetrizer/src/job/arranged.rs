@@ -200,9 +200,15 @@ fn met(
 ) -> Result<Optimized> {
     let surface = &found.working.surface;
     if goals.is_empty() {
-        return Ok(Optimized::unmoved(surface, &found.detection, Outcome::NoSymmetry));
+        return Ok(Optimized::unmoved(
+            surface,
+            &found.detection,
+            Outcome::NoSymmetry,
+        ));
     }
-    ctx.stage("orbits", |ctx| orbits(surface, &found.detection, goals, settings, ctx))
+    ctx.stage("orbits", |ctx| {
+        orbits(surface, &found.detection, goals, settings, ctx)
+    })
 }
 
 /// That the symmetries that were asked for by their ids are among those `found`.

@@ -36,7 +36,11 @@ pub fn goals(detection: &Detection, params: &OptimizeParams) -> Vec<Goal> {
         goals.extend(detection.continuous.iter().map(|c| of_slide(c, detection)));
     }
     let groups = detection.groups.iter();
-    goals.extend(groups.map(|g| of_group(g, detection)).filter(|g| asked(&g.symmetries)));
+    goals.extend(
+        groups
+            .map(|g| of_group(g, detection))
+            .filter(|g| asked(&g.symmetries)),
+    );
     let grouped: Vec<u32> = goals.iter().flat_map(|g| g.symmetries.clone()).collect();
     let least = if params.only.is_some() { 0.0 } else { ALONE };
     let alone = |s: &&Symmetry| {
@@ -53,7 +57,10 @@ pub fn goals(detection: &Detection, params: &OptimizeParams) -> Vec<Goal> {
 fn of_slide(slide: &Continuous, detection: &Detection) -> Goal {
     let list = &detection.samples.list;
     let axis = slide.axis.unwrap_or_else(Vector::z);
-    let heights = slide.samples.iter().map(|&i| axis.dot(&list[i as usize].position.coords));
+    let heights = slide
+        .samples
+        .iter()
+        .map(|&i| axis.dot(&list[i as usize].position.coords));
     let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| {
         (low.min(h), high.max(h))
     });
@@ -106,7 +113,10 @@ fn of_symmetry(s: &Symmetry, detection: &Detection) -> Option<Goal> {
     let count = detection.samples.list.len();
     let patch: Vec<u32> = s.pairs.iter().map(|p| p.sample).collect();
     let (orbit, places) = if s.class == Class::Mirror {
-        (Orbit::Group(vec![Isometry::mirror(&s.plane())]), vec![patch])
+        (
+            Orbit::Group(vec![Isometry::mirror(&s.plane())]),
+            vec![patch],
+        )
     } else if keeps_its_place(s) {
         let ground = together(std::iter::once(s.ground(count)), count);
         (Orbit::Group(powers(s, detection)?), vec![ground])
@@ -129,7 +139,10 @@ fn of_symmetry(s: &Symmetry, detection: &Detection) -> Option<Goal> {
 /// The powers of a symmetry up to the last before the identity, exactly; none where there is no such.
 fn powers(s: &Symmetry, detection: &Detection) -> Option<Vec<Isometry>> {
     let list = &detection.samples.list;
-    let support = s.pairs.iter().map(|p| (list[p.sample as usize].position, 1.0));
+    let support = s
+        .pairs
+        .iter()
+        .map(|p| (list[p.sample as usize].position, 1.0));
     let space = TransformSpace::new(support);
     let kind = s.q_from_p.snapped(&space, ROUND).0;
     let mut elements = s.q_from_p.nearest(kind, &space)?.elements(&space, ROUND);

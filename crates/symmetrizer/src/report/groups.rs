@@ -79,7 +79,9 @@ pub fn exact(found: &Detected, goals: &[Goal]) -> Vec<ExactReport> {
         symmetries: goal.symmetries.clone(),
         elements: goal.elements().iter().map(|t| place.matrix(t)).collect(),
         axis: match &goal.orbit {
-            Orbit::Slide(slide, _) => slide.axis.map(|axis| [axis.into(), place.point(&slide.point)]),
+            Orbit::Slide(slide, _) => slide
+                .axis
+                .map(|axis| [axis.into(), place.point(&slide.point)]),
             _ => None,
         },
     };

@@ -287,7 +287,10 @@ mod tests {
 
     #[test]
     fn rows_are_derivatives_of_images() {
-        let (x, n) = (Point::new(0.4, -0.3, 0.6), Vector::new(0.5, 0.5, -0.2).normalize());
+        let (x, n) = (
+            Point::new(0.4, -0.3, 0.6),
+            Vector::new(0.5, 0.5, -0.2).normalize(),
+        );
         let h = 1e-6;
         for (which, goal) in goals().iter().enumerate() {
             for (from, links) in goal.links(0).iter().enumerate() {
@@ -323,7 +326,10 @@ mod tests {
                                 // Translations do not turn; free copies are seen from the first one.
                                 continue;
                             }
-                            assert!((measured - row).abs() < 1e-6, "{which} {from} {k} {twist} {c}");
+                            assert!(
+                                (measured - row).abs() < 1e-6,
+                                "{which} {from} {k} {twist} {c}"
+                            );
                         }
                     }
                 }
@@ -338,7 +344,11 @@ mod tests {
             .map(|k| (1..k).fold(ring, |t, _| ring.after(&t)))
             .collect();
         let truth = goal(Orbit::Group(powers), 1);
-        let off = turn(Vector::new(1.0, 0.3, 0.0), 0.02, Vector::new(0.01, -0.02, 0.0));
+        let off = turn(
+            Vector::new(1.0, 0.3, 0.0),
+            0.02,
+            Vector::new(0.01, -0.02, 0.0),
+        );
         let mut found = truth.moved(|_| off);
         for _ in 0..6 {
             let mut equations = Equations::new(&found);
@@ -349,7 +359,13 @@ mod tests {
                 for (k, link) in found.links(0)[0].iter().enumerate() {
                     let y = link.t.apply(&x);
                     let gap = n.dot(&(image(&truth, 0, k, &x) - y));
-                    let contact = Contact { x, y, n, gap, weight: 1.0 };
+                    let contact = Contact {
+                        x,
+                        y,
+                        n,
+                        gap,
+                        weight: 1.0,
+                    };
                     equations.add(&found, link, &contact);
                 }
             }
@@ -357,7 +373,10 @@ mod tests {
         }
         let elements = found.elements();
         for (a, b) in elements.iter().zip(truth.elements()) {
-            assert!((a.linear - b.linear).norm() < 1e-6 && (a.translation - b.translation).norm() < 1e-6);
+            assert!(
+                (a.linear - b.linear).norm() < 1e-6
+                    && (a.translation - b.translation).norm() < 1e-6
+            );
         }
         let square = elements[0].after(&elements[0]);
         assert!((square.linear - elements[1].linear).norm() < 1e-12);

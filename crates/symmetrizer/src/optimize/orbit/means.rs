@@ -115,7 +115,9 @@ impl Means {
             .par_chunks(size)
             .map(|part| {
                 let mut tallies: Vec<Tally> = goals.iter().map(Tally::new).collect();
-                let ways = part.iter().map(|&v| way(scene, goals, &links, v, &mut tallies));
+                let ways = part
+                    .iter()
+                    .map(|&v| way(scene, goals, &links, v, &mut tallies));
                 (ways.collect(), tallies)
             })
             .collect();
@@ -143,7 +145,11 @@ impl Means {
 /// No more than [`LINKS`] of the motions, others in each round.
 fn in_turn(links: Vec<Link>, round: usize) -> Vec<Link> {
     let turns = links.len().div_ceil(LINKS).max(1);
-    links.into_iter().skip(round % turns).step_by(turns).collect()
+    links
+        .into_iter()
+        .skip(round % turns)
+        .step_by(turns)
+        .collect()
 }
 
 /// The way of a point: see [`Means`].
@@ -174,7 +180,11 @@ fn way(
                 continue;
             };
             let here = m.weight * area;
-            for (sum, x) in tally.found.iter_mut().zip([1.0, distance, distance * distance]) {
+            for (sum, x) in tally
+                .found
+                .iter_mut()
+                .zip([1.0, distance, distance * distance])
+            {
                 *sum += here * x;
             }
             let weight = contact.weight * m.weight;

@@ -4,8 +4,8 @@
 //! round are smoothed over the surface, over ever shorter lengths, as in the finish.
 
 use crate::context::Context;
-use crate::deform::smooth::SmoothField;
 use crate::deform::control::{Decimated, decimated, stiffness_on};
+use crate::deform::smooth::SmoothField;
 use crate::deform::{Deformer, carry};
 use crate::error::{Error, Result};
 use crate::geom::{Point, Vector};

@@ -111,7 +111,15 @@ fn made(
             false if open().next().is_none() => 0,
             false => settings.optimize.orbit_rounds,
         };
-        draw(&now, samples, &contracted.goals, rounds, settings.stiffness, &limit, ctx)
+        draw(
+            &now,
+            samples,
+            &contracted.goals,
+            rounds,
+            settings.stiffness,
+            &limit,
+            ctx,
+        )
     })?;
     let limited = contracted.limited || drawn.limited;
     Ok(Made {
@@ -130,7 +138,9 @@ fn made(
 /// A goal to give up, the last one first: it gains nothing, or it is not met and one that was wanted more, which has
 /// this name, lies on the same ground.
 fn given_up(goals: &[Goal], made: &Made) -> Option<(usize, Option<String>)> {
-    let pursued = (0..goals.len()).rev().filter(|&k| !made.before.goals[k].is_met);
+    let pursued = (0..goals.len())
+        .rev()
+        .filter(|&k| !made.before.goals[k].is_met);
     pursued.into_iter().find_map(|k| {
         let (before, after) = (made.before.rms[k], made.drawn.rms[k]);
         let mut winners = goals[..k].iter();
