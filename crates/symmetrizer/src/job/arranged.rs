@@ -4,6 +4,7 @@
 use crate::context::Context;
 use crate::detect::{Detection, detect};
 use crate::error::{Error, Result};
+use crate::field::trust::Verdict;
 use crate::geom::median;
 use crate::job::{Bent, Detected, bent};
 use crate::optimize::orbit::{Goal, orbits};
@@ -13,7 +14,6 @@ use crate::optimize::schedule::Settings;
 use crate::optimize::{Optimized, Outcome, optimize};
 use crate::patch::Symmetry;
 use crate::report::BendReport;
-use crate::shape::working::Working;
 use crate::straighten::StraightenParams;
 use crate::transform::Kind;
 
@@ -23,7 +23,7 @@ pub(super) enum Plan {
     Orbits(Vec<Goal>),
     /// One mirror, straight or bent, may be made to hold for all of it.
     Mirror {
-        /// Everything else, which comes first.
+        /// Everything else, which may speak against it.
         details: Vec<Goal>,
         /// All of it, should there be no such mirror.
         all: Vec<Goal>,
@@ -57,12 +57,11 @@ pub(super) fn plan(found: &Detected, settings: Settings<'_>) -> Plan {
     }
 }
 
-/// Whether the mirror that holds for most of a shape does not hold for its `details`, or there is none: one that holds
-/// as far as the tolerance, for what nearly is symmetric is to become so.
+/// Whether the mirror that holds for most of a shape, as far as the tolerance, does not hold for its `details`.
 fn is_contradicted(detection: &Detection, details: &[Goal]) -> bool {
     let larger = |a: &&Symmetry, b: &&Symmetry| a.area_fraction.total_cmp(&b.area_fraction);
     let Some(main) = mirrors(detection).max_by(larger) else {
-        return true;
+        return false;
     };
     let mut residuals: Vec<f64> = main.pairs.iter().map(|p| p.residual).collect();
     let near = (TYPICAL * median(&mut residuals).unwrap_or(0.0)).max(SMALL);
@@ -103,31 +102,30 @@ pub(super) fn symmetrized(
         Plan::Orbits(goals) => return Ok(Arranged::plain(met(found, &goals, settings, ctx)?)),
         Plan::Mirror { details, all } => (details, all),
     };
-    let has_mirror = mirrors(&found.detection).next().is_some();
-    if exact && has_mirror {
-        let done = met(found, &details, settings, ctx)?;
-        if done.positions == found.working.surface.positions {
-            let outcome = Outcome::Converged;
-            return Ok(Arranged::plain(Optimized { outcome, ..done }));
-        }
+    if exact && mirrors(&found.detection).next().is_some() {
+        let surface = &found.working.surface;
+        let unmoved = Optimized::unmoved(surface, &found.detection, Outcome::Converged);
+        return Ok(Arranged::plain(unmoved));
     }
     let near = ctx.stage("detect", |ctx| {
         detect(&found.working.surface, settings.detect, ctx)
     })?;
-    if is_contradicted(&near, &details) {
+    if mirrors(&near).next().is_none() {
         return Ok(Arranged::plain(met(found, &all, settings, ctx)?));
     }
+    let contradicted = is_contradicted(&near, &details);
     let near = known(found, near);
-    let detailed = met(found, &details, settings, ctx)?;
-    let state = state(found, near, &detailed);
+    let state = state(found, near);
     let looked = bent::unbend(&state, mean, params, settings, ctx)?;
+    let verdict = looked.report.as_ref().map(|bend| bend.verdict);
     let merged = looked.done.is_none();
-    let mut done = match looked.done {
+    let done = match looked.done {
         Some(done) => done,
+        None if contradicted && verdict != Some(Verdict::Accept) => {
+            return Ok(Arranged::plain(met(found, &all, settings, ctx)?));
+        }
         None => optimize(&state.working.surface, &state.detection, settings, ctx)?,
     };
-    done.steps.splice(0..0, detailed.steps);
-    done.next_id = done.next_id.max(detailed.next_id);
     Ok(Arranged {
         done,
         bend: looked.report,
@@ -172,19 +170,10 @@ fn known(found: &mut Detected, mut near: Detection) -> Detection {
 /// Mirrors that are one, distance in the shape's transformation space, fraction of L.
 const SAME: f64 = 0.03;
 
-/// The shape with its details made exact, and the mirrors `near` there.
-fn state(found: &Detected, mut near: Detection, detailed: &Optimized) -> Detected {
-    let working = &found.working;
-    let surface = working.surface.with_positions(detailed.positions.clone());
-    for s in &mut near.samples.list {
-        s.position = surface.point(&s.at);
-        s.normal = surface.normal(&s.at);
-    }
+/// The shape with the mirrors `near`.
+fn state(found: &Detected, near: Detection) -> Detected {
     Detected {
-        working: Working {
-            surface,
-            ..working.clone()
-        },
+        working: found.working.clone(),
         wall: None,
         diagonal: found.diagonal,
         detection: near,

@@ -63,8 +63,9 @@ fn states(job: &Symmetrized, title: &str) -> Canvas {
         return views(before, title);
     };
     let bandwidth = job.report.head.params.cluster.bandwidth;
-    let projection = Projection::new(before.detection.clouds[0].votes.points());
-    let votes = [before, after].map(|state| Votes::new(state, 0, before, &projection));
+    let cloud = told(job);
+    let projection = Projection::new(before.detection.clouds[cloud].votes.points());
+    let votes = [before, after].map(|state| Votes::new(state, cloud, before, &projection));
     let axes = common_axes(&votes, bandwidth);
     let colors = [(before, job.planes[0]), (after, job.planes[1])]
         .map(|(state, plane)| colored(job, state, &plane));
@@ -89,6 +90,19 @@ fn states(job: &Symmetrized, title: &str) -> Canvas {
         },
     };
     page.canvas()
+}
+
+/// The cloud that tells most of what was done: that of the first goal's symmetries, else the first, that of mirrors.
+fn told(job: &Symmetrized) -> usize {
+    let detection = &job.before.detection;
+    let mut ids = job.goals.iter().flat_map(|g| &g.symmetries);
+    let class = ids.find_map(|id| {
+        let found = detection.symmetries.iter().find(|s| s.id == *id);
+        found.map(|s| s.class)
+    });
+    let at = class.and_then(|class| detection.clouds.iter().position(|c| c.class == class));
+    let after = job.after.as_ref().map_or(0, |a| a.detection.clouds.len());
+    at.filter(|&k| k < after).unwrap_or(0)
 }
 
 /// What is to be seen on each vertex of a state: how far it is from its mirror image, or from the mean of its copies,

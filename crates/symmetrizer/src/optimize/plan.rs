@@ -17,6 +17,8 @@ const SLIDE_REACH: f64 = 0.015;
 /// A symmetry in no group holds for this share of the surface, unless it is asked for: two small places of a natural
 /// shape that are somewhat alike need not be more so.
 const ALONE: f64 = 0.1;
+/// A part that slides along itself is at least this share of the surface: the faces of a box do so, too.
+const SLIDING: f64 = 0.5;
 /// Patch and image are one place where this share of the smaller lies in both.
 const ONE_PLACE: f64 = 0.7;
 /// Powers that are tried for a turn to come round.
@@ -33,7 +35,9 @@ pub fn goals(detection: &Detection, params: &OptimizeParams) -> Vec<Goal> {
     };
     let mut goals: Vec<Goal> = Vec::new();
     if params.only.is_none() {
-        goals.extend(detection.continuous.iter().map(|c| of_slide(c, detection)));
+        let large = detection.continuous.iter();
+        let large = large.filter(|c| c.area_fraction >= SLIDING);
+        goals.extend(large.map(|c| of_slide(c, detection)));
     }
     let groups = detection.groups.iter();
     goals.extend(

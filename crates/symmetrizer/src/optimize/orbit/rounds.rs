@@ -17,6 +17,7 @@ use crate::optimize::untangle::untangle;
 use crate::sample::Samples;
 use crate::shape::inverted::inverted_faces;
 use crate::shape::{ClosestPoint, Surface};
+use crate::transform::Ambient;
 
 /// Fits of the motions before anything moves.
 const FITS: usize = 8;
@@ -257,7 +258,11 @@ impl Cloth {
     }
 
     /// The vertices of `next` slid over it towards where they began: along a smooth surface nothing is to be gained.
+    /// Corners of an outline are what its form is.
     fn without_drift(&self, next: &Surface) -> Vec<Point> {
+        if self.goals.iter().any(|g| g.ambient == Ambient::Plane) {
+            return next.positions.clone();
+        }
         let smooth = next.smooth_vertices(SMOOTH_COS);
         let slid = |v: usize| {
             let (x, n) = (next.positions[v], next.vertex_normals[v]);
