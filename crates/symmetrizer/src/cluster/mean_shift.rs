@@ -146,11 +146,12 @@ impl Votes {
             .iter()
             .map(|&(i, d2)| self.weights[i as usize] * (1.0 - d2 / (h * h)))
             .sum();
-        let votes = near
+        let mut votes: Vec<u32> = near
             .iter()
             .filter(|&&(i, _)| self.weights[i as usize] > 0.0)
             .map(|&(i, _)| i)
             .collect();
+        votes.sort_unstable();
         Some(Cluster {
             mode,
             height,
@@ -190,12 +191,11 @@ impl Votes {
         net.into_par_iter().filter(highest).collect()
     }
 
-    /// Votes within `h` of `x` with their squared distances, by index.
+    /// Votes within `h` of `x` with their squared distances, in the order of the index.
     fn within(&self, x: &Phi, h: f64) -> Vec<(u32, f64)> {
         let y: [f64; LEADING] = (self.axes * x).into();
         self.index
-            .within(&y, h)
-            .into_iter()
+            .around(&y, h)
             .map(|i| (i, (self.phi[i as usize] - x).norm_squared()))
             .filter(|&(_, d2)| d2 < h * h)
             .collect()

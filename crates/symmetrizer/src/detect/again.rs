@@ -1,7 +1,6 @@
 //! A second round of pairing: a part that has a copy may have more of them. Its probes are paired
 //! again, with more partners than in the first round, where they were lost among all others.
 
-use crate::cluster::Votes;
 use crate::context::Context;
 use crate::detect::Cloud;
 use crate::detect::search::{Again, motions};
@@ -52,12 +51,7 @@ pub fn again(
             surroundings.space,
             &params.pair,
         );
-        let votes = Votes::new(&pairs, surroundings.space);
-        let cloud = Cloud {
-            class,
-            pairs,
-            votes,
-        };
+        let cloud = Cloud::new(class, pairs, surroundings.space);
         let clusters = cloud.votes.clusters(&params.cluster);
         let found = motions(
             surroundings,

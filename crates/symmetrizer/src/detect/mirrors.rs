@@ -1,6 +1,6 @@
 //! The mirrors among the modes of their cloud.
 
-use crate::cluster::{Cluster, ClusterParams, Votes};
+use crate::cluster::{Cluster, ClusterParams};
 use crate::context::Context;
 use crate::detect::Cloud;
 use crate::detect::apart::apart;
@@ -96,12 +96,7 @@ fn rest(
         return Ok(None);
     }
     let pairs = mirror_pairs(ground.samples, Some(&left), &params.pair, ctx)?;
-    let votes = Votes::new(&pairs, space);
-    Ok(Some(Cloud {
-        class: Class::Mirror,
-        pairs,
-        votes,
-    }))
+    Ok(Some(Cloud::new(Class::Mirror, pairs, space)))
 }
 
 impl Found {

@@ -22,7 +22,7 @@ use crate::cluster::{ClusterParams, Votes};
 use crate::context::Context;
 use crate::error::Result;
 use crate::pair::{Pair, PairParams, likes, mirror_pairs, rigid_pairs};
-use crate::patch::{Ground, PatchParams, Refusal, Symmetry};
+use crate::patch::{Candidate, Ground, PatchParams, Refusal, Settled, Symmetry, settled};
 use crate::sample::outline::sample_outline;
 use crate::sample::samples::Describer;
 use crate::sample::{SampleParams, Samples, probes, sample};
@@ -30,7 +30,7 @@ use crate::shape::fairing::faired;
 use crate::shape::wall::Wall;
 use crate::shape::{ClosestPoint, Surface};
 use crate::slip::{Continuous, SlipParams, continuous};
-use crate::transform::{Class, Kind, TransformSpace};
+use crate::transform::{Class, Isometry, Kind, TransformSpace};
 
 /// Parameters of detection, a section for each stage.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -89,6 +89,58 @@ pub struct Cloud {
     pub pairs: Vec<Pair>,
     /// The votes, those explained by a symmetry with weight 0.
     pub votes: Votes,
+    /// How its modes came to rest, as far as they were grown one after the other.
+    pub rested: Vec<Rested>,
+}
+
+/// A mode that has come to rest on the surface, or not.
+#[derive(Debug, Clone)]
+pub struct Rested {
+    /// Where it started from.
+    start: Isometry,
+    seeds: Vec<u32>,
+    /// Where it came to rest, or why it did not.
+    rest: std::result::Result<Settled, String>,
+}
+
+impl Cloud {
+    /// Of `pairs`, none of them explained.
+    fn new(class: Class, pairs: Vec<Pair>, space: &TransformSpace) -> Self {
+        Self {
+            class,
+            votes: Votes::new(&pairs, space),
+            pairs,
+            rested: Vec::new(),
+        }
+    }
+
+    /// The same with nothing explained.
+    fn anew(&self, space: &TransformSpace) -> Self {
+        Self {
+            rested: self.rested.clone(),
+            ..Self::new(self.class, self.pairs.clone(), space)
+        }
+    }
+
+    /// Where a `candidate` among its modes comes to rest on `ground`: that is worked out once.
+    fn rest(
+        &mut self,
+        ground: &Ground<'_>,
+        candidate: &Candidate,
+        params: &PatchParams,
+    ) -> std::result::Result<Settled, String> {
+        let mut known = self.rested.iter();
+        if let Some(known) = known.find(|k| k.start == candidate.t && k.seeds == candidate.seeds) {
+            return known.rest.clone();
+        }
+        let rest = settled(ground, candidate, params);
+        self.rested.push(Rested {
+            start: candidate.t,
+            seeds: candidate.seeds.clone(),
+            rest: rest.clone(),
+        });
+        rest
+    }
 }
 
 /// What detection found on a surface.
@@ -126,7 +178,25 @@ pub fn detect(
     let surface = fair.as_ref().unwrap_or(surface);
     let describer = Describer::new(surface, if fair.is_some() { WIDENING } else { 1.0 });
     let samples = ctx.stage("sample", |ctx| sample(&describer, &params.sample, ctx))?;
-    find(&describer, samples, params, false, ctx)
+    find(&describer, samples, params, (false, &[]), ctx)
+}
+
+/// Finds the symmetries of `surface` once more, with `params` that differ in what is wanted and in where patches end: its samples are those
+/// that were `found` on it before, and so are the votes of mirrors, where there are any, and where they came to rest.
+///
+/// # Errors
+/// As [`detect`].
+pub fn detect_anew(
+    surface: &Surface,
+    found: &Detection,
+    params: &DetectParams,
+    ctx: &mut Context<'_>,
+) -> Result<Detection> {
+    let fair = faired(surface);
+    let surface = fair.as_ref().unwrap_or(surface);
+    let describer = Describer::new(surface, if fair.is_some() { WIDENING } else { 1.0 });
+    let samples = found.samples.clone();
+    find(&describer, samples, params, (false, &found.clouds), ctx)
 }
 
 /// Finds the mirror lines of an outline, partial ones too, as mirrors at right angles to its plane, and the turns that
@@ -149,16 +219,16 @@ pub fn detect_in_plane(
     let samples = ctx.stage("sample", |ctx| {
         sample_outline(&describer, wall, &params.sample, ctx)
     })?;
-    find(&describer, samples, &params, rotations, ctx)
+    find(&describer, samples, &params, (rotations, &[]), ctx)
 }
 
 /// What there is to be found among `samples` of the surface of `describer`; with the turns of the whole where it is
-/// an outline that may be `turned`.
+/// an outline that may be `turned`. The votes of mirrors are `known` where there are any.
 fn find(
     describer: &Describer<'_>,
     samples: Samples,
     params: &DetectParams,
-    turned: bool,
+    (turned, known): (bool, &[Cloud]),
     ctx: &mut Context<'_>,
 ) -> Result<Detection> {
     let surface = describer.surface;
@@ -192,16 +262,15 @@ fn find(
     let mut refused = Vec::new();
     let mut drifting = Vec::new();
     for class in classes {
-        let pairs = ctx.stage("pair", |ctx| match class {
-            Class::Mirror => mirror_pairs(&samples, None, &params.pair, ctx),
-            _ => rigid_pairs(&probes, &likes, class, &space, &params.pair, ctx),
+        let known = known.iter().find(|c| c.class == Class::Mirror);
+        let mut cloud = ctx.stage("pair", |ctx| {
+            let pairs = match (class, known) {
+                (Class::Mirror, Some(known)) => return Ok(known.anew(&space)),
+                (Class::Mirror, None) => mirror_pairs(&samples, None, &params.pair, ctx)?,
+                _ => rigid_pairs(&probes, &likes, class, &space, &params.pair, ctx)?,
+            };
+            Ok(Cloud::new(class, pairs, &space))
         })?;
-        let votes = Votes::new(&pairs, &space);
-        let mut cloud = Cloud {
-            class,
-            pairs,
-            votes,
-        };
         let clusters = ctx.stage("cluster", |_| Ok(cloud.votes.clusters(&params.cluster)))?;
         let found = ctx.stage("patch", |ctx| {
             search::search(&surroundings, clusters, &mut cloud, &symmetries, ctx)

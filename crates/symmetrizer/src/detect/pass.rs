@@ -8,7 +8,7 @@ use crate::detect::search::{Found, MIN_VOTES};
 use crate::detect::surroundings::{Surroundings, as_good, is_same};
 use crate::error::Result;
 use crate::patch::ground::touch;
-use crate::patch::{Candidate, Symmetry, grow_patch};
+use crate::patch::{Candidate, Symmetry, grow_settled};
 use crate::transform::space::Phi;
 use crate::transform::{Class, Isometry};
 
@@ -68,7 +68,8 @@ impl Pass {
             tried.push(cluster.mode);
             let candidate =
                 Candidate::of_cluster(ground.samples, &cloud.pairs, cluster, Class::Mirror, space);
-            let grown = grow_patch(ground, describer, &candidate, &params.patch)
+            let rest = cloud.rest(ground, &candidate, &params.patch);
+            let grown = grow_settled(ground, describer, &candidate, rest, &params.patch)
                 .and_then(|s| surroundings.more_than_sliding(s))
                 .and_then(|s| as_good(s, &found.symmetries, ground))
                 .map(|s| surroundings.weigh_against_chance(s, cluster, cloud, h, ctx));

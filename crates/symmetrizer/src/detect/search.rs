@@ -1,5 +1,6 @@
 //! From the modes of a cloud to its symmetries.
 
+use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
 use crate::cluster::{Cluster, Votes};
@@ -10,6 +11,7 @@ use crate::detect::surroundings::{SHUFFLES, Surroundings, as_good, is_same};
 use crate::error::Result;
 use crate::pair::shuffled_motions;
 use crate::patch::{Candidate, Refusal, Symmetry, grow_patch};
+use crate::transform::space::Phi;
 use crate::transform::{Class, Isometry};
 
 /// What came of a cloud's modes.
@@ -72,22 +74,32 @@ pub fn motions(
         ..
     } = surroundings;
     let class = cloud.class;
+    let h = params.cluster.bandwidth;
+    let chance = Chance::new(surroundings, cloud, &mut ctx.rng("chance"));
+    let highest = |all: &[Symmetry]| all.iter().map(|k| k.height).fold(0.0, f64::max);
+    let mut found = Found::default();
     let worth = clusters.iter().filter(|c| c.votes.len() >= MIN_VOTES);
     let modes: Vec<&Cluster> = worth.take(again.map_or(MOTIONS, |a| a.modes)).collect();
     let grown: Vec<_> = modes
         .par_iter()
         .map(|c| {
             let candidate = Candidate::of_cluster(ground.samples, &cloud.pairs, c, class, space);
-            let candidate = match again {
-                Some(round) => candidate.known(round.ground),
-                None => candidate,
+            let Some(round) = again else {
+                let hopeless = chance.hopeless(c, highest(known));
+                return match hopeless {
+                    Some(reason) => Err(candidate.refuse(candidate.t, reason, ground.samples)),
+                    None => grow_patch(ground, describer, &candidate, &params.patch),
+                };
             };
-            grow_patch(ground, describer, &candidate, &params.patch)
+            grow_patch(
+                ground,
+                describer,
+                &candidate.known(round.ground),
+                &params.patch,
+            )
         })
         .collect();
     ctx.progress(1.0)?;
-    let mut rng = ctx.rng("chance");
-    let mut found = Found::default();
     let mut good: Vec<Symmetry> = Vec::new();
     for outcome in grown {
         match outcome.and_then(|s| surroundings.more_than_sliding(s)) {
@@ -100,31 +112,21 @@ pub fn motions(
     }
     let quality = |s: &Symmetry| s.area_fraction * (1.0 - s.rms / params.patch.copy_tolerance);
     good.sort_by(|a, b| quality(b).total_cmp(&quality(a)));
-    let h = params.cluster.bandwidth;
     let near = 0.5 * h;
-    let chance: Vec<Votes> = (0..SHUFFLES)
-        .map(|_| {
-            let pairs = shuffled_motions(&cloud.pairs, class, ground.samples, &mut rng);
-            Votes::new(&pairs, space)
-        })
-        .collect();
     let mut accepted = known.to_vec();
     for s in good {
         if accepted.iter().any(|k| is_same(k, &s, space, near)) {
             continue;
         }
-        let highest = accepted.iter().map(|k| k.height).fold(0.0, f64::max);
-        if again.is_none() && s.height < FAINT * highest {
-            let reason = "hardly any votes speak for it".to_owned();
-            found.refused.push(*s.refuse(reason, ground.samples));
+        if again.is_none() && s.height < FAINT * highest(&accepted) {
+            found.refused.push(*s.refuse(faint(), ground.samples));
             continue;
         }
-        let mode = space.embed(&s.q_from_p);
-        let by_chance: f64 = chance.iter().map(|v| v.density(&mode, h)).sum();
-        let by_chance = by_chance / SHUFFLES as f64 / s.height;
+        let by_chance = chance.share(&space.embed(&s.q_from_p), s.height);
         if by_chance > params.patch.max_chance {
-            let reason = format!("as many votes come by chance ({by_chance:.2} of its height)");
-            found.refused.push(*s.refuse(reason, ground.samples));
+            found
+                .refused
+                .push(*s.refuse(accidental(by_chance), ground.samples));
             continue;
         }
         match as_good(s, &accepted, ground) {
@@ -134,4 +136,60 @@ pub fn motions(
     }
     found.symmetries = accepted.split_off(known.len());
     Ok(found)
+}
+
+/// A mode whose votes come by chance to more than this many times what a symmetry's may is not grown: as its motion
+/// settles it moves by a fraction of the kernel's radius.
+const HOPELESS: f64 = 2.0;
+
+/// What the votes of a cloud come to when their second places are shuffled.
+struct Chance {
+    shuffled: Vec<Votes>,
+    /// The kernel's radius, fraction of L.
+    h: f64,
+    /// The largest share of a mode's height that may come by chance.
+    most: f64,
+}
+
+impl Chance {
+    fn new(surroundings: &Surroundings<'_>, cloud: &Cloud, rng: &mut Pcg64) -> Self {
+        let Surroundings {
+            ground,
+            space,
+            params,
+            ..
+        } = surroundings;
+        let mut shuffle = |_| {
+            let pairs = shuffled_motions(&cloud.pairs, cloud.class, ground.samples, rng);
+            Votes::new(&pairs, space)
+        };
+        Self {
+            shuffled: (0..SHUFFLES).map(&mut shuffle).collect(),
+            h: params.cluster.bandwidth,
+            most: params.patch.max_chance,
+        }
+    }
+
+    /// The share of the `height` of a mode that comes by chance.
+    fn share(&self, mode: &Phi, height: f64) -> f64 {
+        let density: f64 = self.shuffled.iter().map(|v| v.density(mode, self.h)).sum();
+        density / SHUFFLES as f64 / height
+    }
+
+    /// Why a mode need not be grown, where the highest symmetry known has that height.
+    fn hopeless(&self, mode: &Cluster, highest: f64) -> Option<String> {
+        if mode.height < FAINT * highest {
+            return Some(faint());
+        }
+        let share = self.share(&mode.mode, mode.height);
+        (share > HOPELESS * self.most).then(|| accidental(share))
+    }
+}
+
+fn faint() -> String {
+    "hardly any votes speak for it".to_owned()
+}
+
+fn accidental(by_chance: f64) -> String {
+    format!("as many votes come by chance ({by_chance:.2} of its height)")
 }

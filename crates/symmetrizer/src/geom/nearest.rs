@@ -18,22 +18,21 @@ impl<const K: usize> PointIndex<K> {
         }
     }
 
-    /// Indices of the points closer than `radius` to `x`, increasing, so that sums over them do
-    /// not depend on the tree's layout.
+    /// Indices of the points closer than `radius` to `x`, increasing.
     pub fn within(&self, x: &[f64; K], radius: f64) -> Vec<u32> {
-        let Some(tree) = &self.tree else {
-            return Vec::new();
-        };
-        let mut found: Vec<u32> = tree
-            .query(x)
-            .within::<SquaredEuclidean<f64>>(radius * radius)
-            .unsorted()
-            .execute()
-            .iter()
-            .map(|hit| hit.item)
-            .collect();
+        let mut found: Vec<u32> = self.around(x, radius).collect();
         found.sort_unstable();
         found
+    }
+
+    /// The same in the order in which the tree has them, which is the same for the same points.
+    pub fn around(&self, x: &[f64; K], radius: f64) -> impl Iterator<Item = u32> + use<K> {
+        let square = radius * radius;
+        let hits = self.tree.as_ref().map(|tree| {
+            let query = tree.query(x).within::<SquaredEuclidean<f64>>(square);
+            query.unsorted().execute()
+        });
+        hits.into_iter().flatten().map(|hit| hit.item)
     }
 
     /// Index and squared distance of the point nearest to `x`.

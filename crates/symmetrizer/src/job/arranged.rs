@@ -2,7 +2,7 @@
 //! their own.
 
 use crate::context::Context;
-use crate::detect::{Detection, detect};
+use crate::detect::{Detection, detect_anew};
 use crate::error::{Error, Result};
 use crate::field::trust::Verdict;
 use crate::geom::median;
@@ -108,7 +108,8 @@ pub(super) fn symmetrized(
         return Ok(Arranged::plain(unmoved));
     }
     let near = ctx.stage("detect", |ctx| {
-        detect(&found.working.surface, settings.detect, ctx)
+        let surface = &found.working.surface;
+        detect_anew(surface, &found.detection, settings.detect, ctx)
     })?;
     if mirrors(&near).next().is_none() {
         return Ok(Arranged::plain(met(found, &all, settings, ctx)?));

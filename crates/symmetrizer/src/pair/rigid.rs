@@ -10,6 +10,7 @@ use crate::context::Context;
 use crate::error::Result;
 use crate::geom::{Matrix3, Point};
 use crate::pair::{Pair, PairParams};
+use crate::sample::relief::Sizes;
 use crate::sample::{Frame, Probe, Sample};
 use crate::transform::{Class, Isometry, TransformSpace};
 
@@ -26,8 +27,9 @@ const MIN_MOTION: f64 = 0.1;
 /// For each probe those whose relief is like its own by size of the harmonics, the most alike first: a
 /// turn or a mirror image changes nothing of that.
 pub fn likes(probes: &[Probe], params: &PairParams) -> Vec<Vec<u32>> {
-    let alike = |s: &Probe| alike(probes, &s.sample, params);
-    probes.par_iter().map(alike).collect()
+    let sizes: Vec<Sizes> = probes.iter().map(|p| p.sample.relief.sizes()).collect();
+    let alike = |s: &Sizes| alike(&sizes, s, params);
+    sizes.par_iter().map(alike).collect()
 }
 
 /// The proper or improper votes of a surface's probes among their `likes`, each pair in both directions.
@@ -99,12 +101,12 @@ pub fn guided_pairs(
     votes.into_iter().flatten().collect()
 }
 
-/// The probes whose relief is like that of `s` by size of their harmonics, the most alike first.
-fn alike(probes: &[Probe], s: &Sample, params: &PairParams) -> Vec<u32> {
-    let mut found: Vec<(f64, u32)> = probes
+/// Those of all whose harmonics are like `s` by size, the most alike first.
+fn alike(all: &[Sizes], s: &Sizes, params: &PairParams) -> Vec<u32> {
+    let mut found: Vec<(f64, u32)> = all
         .iter()
         .zip(0..)
-        .filter_map(|(t, q)| Some((s.relief.least_gap(&t.sample.relief)?, q)))
+        .filter_map(|(t, q)| Some((s.least_gap(t)?, q)))
         .filter(|&(gap, _)| gap < params.max_gap)
         .collect();
     found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));

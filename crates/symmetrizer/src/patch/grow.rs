@@ -68,6 +68,18 @@ impl Candidate {
             ..self
         }
     }
+
+    /// That it is no symmetry, with its isometry as it is then.
+    pub fn refuse(&self, t: Isometry, reason: String, samples: &Samples) -> Box<Refusal> {
+        let first = self.seeds.first();
+        Box::new(Refusal {
+            class: self.class,
+            q_from_p: t,
+            height: self.height,
+            reason,
+            near: first.map_or(Point::origin(), |&s| samples.list[s as usize].position),
+        })
+    }
 }
 
 /// Grows the patch of a candidate: from its seeds over neighbouring samples, as long as their images
@@ -82,21 +94,25 @@ pub fn grow_patch(
     candidate: &Candidate,
     params: &PatchParams,
 ) -> Result<Symmetry, Box<Refusal>> {
-    let Candidate { class, seeds, .. } = candidate;
-    let refuse = |t: Isometry, reason: String| {
-        Box::new(Refusal {
-            class: *class,
-            q_from_p: t,
-            height: candidate.height,
-            reason,
-            near: seeds.first().map_or(Point::origin(), |&s| {
-                ground.samples.list[s as usize].position
-            }),
-        })
-    };
-    let tolerance = params.tolerance_of(*class);
-    let Settled { t, spread } =
-        settled(ground, candidate, params).map_err(|reason| refuse(candidate.t, reason))?;
+    let rest = settled(ground, candidate, params);
+    grow_settled(ground, describer, candidate, rest, params)
+}
+
+/// [`grow_patch`] for a candidate that has come to `rest`.
+///
+/// # Errors
+/// As [`grow_patch`].
+pub fn grow_settled(
+    ground: &Ground<'_>,
+    describer: &Describer<'_>,
+    candidate: &Candidate,
+    rest: Result<Settled, String>,
+    params: &PatchParams,
+) -> Result<Symmetry, Box<Refusal>> {
+    let class = candidate.class;
+    let refuse = |t: Isometry, reason: String| candidate.refuse(t, reason, ground.samples);
+    let tolerance = params.tolerance_of(class);
+    let Settled { t, spread } = rest.map_err(|reason| refuse(candidate.t, reason))?;
     // A patch ends where the isometry no longer holds as it does where it holds best.
     let reached = (params.end * spread).clamp(0.25 * tolerance, tolerance);
     let grown = reach(ground, &t, reached, params.min_cos, candidate, u32::MAX);
@@ -105,7 +121,7 @@ pub fn grow_patch(
     }
     let grown = Grown {
         t,
-        class: *class,
+        class,
         height: candidate.height,
         pairs: grown,
         reached,

@@ -11,7 +11,8 @@ pub mod settle;
 pub mod symmetry;
 
 pub use ground::Ground;
-pub use grow::{Candidate, grow_patch};
+pub use grow::{Candidate, grow_patch, grow_settled};
 pub use ids::carry_ids;
 pub use params::PatchParams;
+pub use settle::{Settled, settled};
 pub use symmetry::{PatchPair, Refusal, Symmetry};

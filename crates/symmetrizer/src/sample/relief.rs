@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Complex, SMatrix, SVector};
 
 use crate::geom::{Point, Vector};
-use crate::sample::signature::SCALES;
+use crate::sample::signature::{Clouds, SCALES};
 use crate::shape::curvature::Cloud;
 
 /// A local frame: the normal and a direction in the tangent plane from which turns are counted.
@@ -102,7 +102,7 @@ impl Harmonics {
 
     /// Values of all 15 functions at a point of the unit disc.
     fn row(&self, x: f64, y: f64) -> SVector<f64, UNKNOWNS> {
-        let rho = x.hypot(y);
+        let rho = (x * x + y * y).sqrt();
         let turn = if rho > 0.0 {
             Complex::new(x / rho, y / rho)
         } else {
@@ -130,10 +130,10 @@ impl Harmonics {
         row
     }
 
-    /// The relief at `x` in `frame` at the radii r0, 2 r0, 4 r0.
-    pub fn relief(&self, cloud: &Cloud, x: &Point, frame: &Frame, r0: f64) -> Relief {
+    /// The relief at `x` in `frame` at the radii of `clouds`.
+    pub fn relief(&self, clouds: &Clouds, x: &Point, frame: &Frame) -> Relief {
         Relief(std::array::from_fn(|s| {
-            self.fit(cloud, x, frame, r0 * f64::from(1 << s))
+            self.fit(clouds.at(s), x, frame, clouds.radius(s))
         }))
     }
 
@@ -210,29 +210,13 @@ impl Relief {
         (sum / count).sqrt()
     }
 
-    /// Never more than the gap of the best alignment, mirrored or not: harmonics compared by size
-    /// alone. `None` without two neighbouring radii in common.
-    pub fn least_gap(&self, other: &Self) -> Option<f64> {
-        VIEWS
-            .iter()
-            .filter_map(|view| self.least_gap_in(other, view))
-            .min_by(f64::total_cmp)
-    }
-
-    fn least_gap_in(&self, other: &Self, view: &[usize; 2]) -> Option<f64> {
-        let (mut difference, mut energy) = (0.0, 0.0);
-        for &s in view {
-            for ((a, b), (m, _)) in self.0[s]?.iter().zip(&other.0[s]?).zip(TERMS) {
-                let (aa, bb) = (a.norm_sqr(), b.norm_sqr());
-                energy += aa + bb;
-                difference += if m == 0 {
-                    (a.re - b.re).powi(2)
-                } else {
-                    aa + bb - 2.0 * (aa * bb).sqrt()
-                };
-            }
-        }
-        Some((2.0 * difference.max(0.0) / energy).sqrt())
+    /// The harmonics by size alone, which no turn and no mirror image changes.
+    pub fn sizes(&self) -> Sizes {
+        let size = |c: Complex<f64>, m: usize| if m == 0 { c.re } else { c.norm_sqr().sqrt() };
+        Sizes(
+            self.0
+                .map(|scale| scale.map(|c| std::array::from_fn(|k| size(c[k], TERMS[k].0)))),
+        )
     }
 
     /// The gap at a given turn of the second one's frame, in the view where it is smaller.
@@ -260,6 +244,34 @@ impl Relief {
         } else {
             large
         }
+    }
+}
+
+/// The harmonics of a relief by size: |c_mj|, c_0j itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sizes([Option<[f64; TERMS.len()]>; SCALES]);
+
+impl Sizes {
+    /// Never more than the gap of the best alignment of the two reliefs, mirrored or not. `None` without two
+    /// neighbouring radii in common.
+    pub fn least_gap(&self, other: &Self) -> Option<f64> {
+        let mut parts = [None; SCALES];
+        for (part, (a, b)) in parts.iter_mut().zip(self.0.iter().zip(&other.0)) {
+            let (Some(a), Some(b)) = (a, b) else {
+                continue;
+            };
+            let (mut difference, mut energy) = (0.0, 0.0);
+            for (a, b) in a.iter().zip(b) {
+                difference += (a - b) * (a - b);
+                energy += a * a + b * b;
+            }
+            *part = Some((difference, energy));
+        }
+        let gap = |&[s, t]: &[usize; 2]| {
+            let ((d, e), (f, g)) = (parts[s]?, parts[t]?);
+            Some((2.0 * (d + f) / (e + g)).sqrt())
+        };
+        VIEWS.iter().filter_map(gap).min_by(f64::total_cmp)
     }
 }
 
@@ -376,8 +388,7 @@ mod tests {
     }
 
     fn relief_of(surface: &Surface, frame: &Frame, x: &Point) -> Relief {
-        let cloud = Cloud::new(surface, 0.02);
-        Harmonics::new().relief(&cloud, x, frame, 0.06)
+        Harmonics::new().relief(&Clouds::new(surface, 0.06), x, frame)
     }
 
     /// The turn of the frame is found again, for a moved and for a mirrored copy, and only there.
@@ -421,7 +432,7 @@ mod tests {
             assert!(best[0].gap < 1e-5);
             let e1 = there.turned(best[0].turn).e1;
             assert!((e1 - t * frame.e1).norm() < 1e-5, "mirrored {mirrored}");
-            assert!(relief.least_gap(&other).unwrap() <= best[0].gap + 1e-6);
+            assert!(relief.sizes().least_gap(&other.sizes()).unwrap() <= best[0].gap + 1e-6);
             // The other hand does not fit.
             assert!(relief.alignments(&other, !mirrored, 0.05).is_empty());
         }

@@ -1,5 +1,7 @@
 //! The samples that stand for a surface in every later stage.
 
+use std::sync::OnceLock;
+
 use rayon::prelude::*;
 
 use crate::context::Context;
@@ -9,9 +11,8 @@ use crate::sample::blue_noise::blue_noise;
 use crate::sample::crisp::Corners;
 use crate::sample::outline;
 use crate::sample::relief::{Frame, Harmonics, Relief};
-use crate::sample::signature::{Signature, base_radius, describe};
+use crate::sample::signature::{Clouds, Signature, base_radius, describe};
 use crate::shape::ClosestPoint;
-use crate::shape::curvature::Cloud;
 use crate::shape::surface::{Surface, SurfacePoint};
 use crate::shape::wall::Wall;
 
@@ -100,13 +101,19 @@ impl Samples {
     }
 }
 
+/// What samples are fitted to.
+struct Fitted {
+    clouds: Clouds,
+    corners: Corners,
+    harmonics: Harmonics,
+}
+
 /// Makes samples of surface points.
 pub struct Describer<'a> {
     /// The surface.
     pub surface: &'a Surface,
-    cloud: Cloud,
-    corners: Corners,
-    harmonics: Harmonics,
+    /// What samples are fitted to, made when the first is asked for.
+    fitted: OnceLock<Fitted>,
     /// The wall that the surface is, where it is one.
     wall: Option<&'a Wall>,
     /// Radius of the smallest curvature fit, fraction of L.
@@ -119,9 +126,7 @@ impl<'a> Describer<'a> {
         let r0 = widening * base_radius(surface);
         Self {
             surface,
-            cloud: Cloud::new(surface, r0 / 4.0),
-            corners: Corners::new(surface),
-            harmonics: Harmonics::new(),
+            fitted: OnceLock::new(),
             wall: None,
             r0,
         }
@@ -142,7 +147,16 @@ impl<'a> Describer<'a> {
 
     /// The sample at a surface point.
     pub fn sample(&self, at: &SurfacePoint) -> Sample {
-        let (mut signature, mut e1, n) = describe(self.surface, &self.cloud, at, self.r0);
+        let Fitted {
+            clouds,
+            corners,
+            harmonics,
+        } = self.fitted.get_or_init(|| Fitted {
+            clouds: Clouds::new(self.surface, self.r0),
+            corners: Corners::new(self.surface),
+            harmonics: Harmonics::new(),
+        });
+        let (mut signature, mut e1, n) = describe(self.surface, clouds, at);
         if let Some(wall) = self.wall {
             let (ring, along) = wall.along(at);
             signature = outline::signature(wall, ring, along, self.r0);
@@ -157,13 +171,11 @@ impl<'a> Describer<'a> {
             at: *at,
             position,
             normal: self.surface.normal(at),
-            crisp: self.corners.normal(self.surface, at),
+            crisp: corners.normal(self.surface, at),
             signature,
             e1,
             frame,
-            relief: self
-                .harmonics
-                .relief(&self.cloud, &position, &frame, self.r0),
+            relief: harmonics.relief(clouds, &position, &frame),
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Closest points on a surface: parry's bounding-volume hierarchy behind our own types.
 
+use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector as GlamVector;
-use parry3d_f64::query::{PointQuery, PointQueryWithLocation};
+use parry3d_f64::query::PointQueryWithLocation;
 use parry3d_f64::shape::{TriMesh, TrianglePointLocation};
 
 use crate::geom::{Point, Vector};
@@ -72,18 +73,23 @@ impl ClosestPoint {
         accepts: impl Fn(u32) -> bool,
     ) -> Option<Hit> {
         let q = to_glam(query);
-        let (face, (distance, (point, location))) = self.tree.bvh().find_best(
-            max_distance,
-            |node, _| node.aabb().distance_to_local_point(q, true),
-            |face, _| {
+        // Squares compare as lengths do, and roots are most of what a box costs.
+        let (face, (square, (point, location))) = self.tree.bvh().find_best(
+            max_distance * max_distance,
+            |node, _| square_distance(&node.aabb(), q),
+            |face, best| {
                 if !accepts(face) {
                     return None;
                 }
-                let (projection, location) = self
-                    .tree
-                    .triangle(face)
-                    .project_local_point_and_get_location(q, false);
-                let cost = (projection.point - q).length();
+                let triangle = self.tree.triangle(face);
+                let normal = to_glam(&Point::from(self.face_normals[face as usize]));
+                let height = (q - triangle.a).dot(normal);
+                if height * height >= best {
+                    return None;
+                }
+                let (projection, location) =
+                    triangle.project_local_point_and_get_location(q, false);
+                let cost = (projection.point - q).length_squared();
                 Some((cost, (projection.point, location)))
             },
         )?;
@@ -93,9 +99,15 @@ impl ClosestPoint {
                 bary: barycentric(&location),
             },
             point: Point::new(point.x, point.y, point.z),
-            distance,
+            distance: square.sqrt(),
         })
     }
+}
+
+/// The squared distance of a point from a box, 0 inside.
+fn square_distance(bounds: &Aabb, x: GlamVector) -> f64 {
+    let outside = (bounds.mins - x).max(x - bounds.maxs);
+    outside.max(GlamVector::ZERO).length_squared()
 }
 
 fn barycentric(location: &TrianglePointLocation) -> [f64; 3] {

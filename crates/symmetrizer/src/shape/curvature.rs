@@ -78,6 +78,12 @@ impl Cloud {
         }
     }
 
+    /// The same with at most one point for each way that the surface faces in a cube of side `cell`: enough for wider
+    /// fits.
+    pub fn coarser(&self, cell: f64) -> Self {
+        self.thinned(cell).indexed()
+    }
+
     fn indexed(mut self) -> Self {
         let places: Vec<[f64; 3]> = self.points.iter().map(|p| p.coords.into()).collect();
         self.index = PointIndex::new(&places);
@@ -130,7 +136,7 @@ impl Cloud {
         radius: f64,
         mut visit: impl FnMut(Vector, f64),
     ) {
-        for i in self.index.within(&center.coords.into(), radius) {
+        for i in self.index.around(&center.coords.into(), radius) {
             let i = i as usize;
             if self.areas[i] > 0.0 && self.normals[i].dot(normal) > 0.0 {
                 visit(self.points[i] - center, self.areas[i]);
