@@ -1,0 +1,147 @@
+//! Outlines that have come to cross themselves at the end: armpits, notches and claws that were pushed over each
+//! other, or that one side has and the other has not.
+//!
+//! What crosses on one side of the line and not on the other is taken from there: the outline is symmetric already, but
+//! for what lies in the folds. What crosses on both sides is let go, as far around as it takes for the inside to
+//! open it, and brought back as far as it does not touch.
+
+mod approach;
+mod opposite;
+mod stretch;
+
+use std::collections::HashSet;
+
+use crate::deform::Igarashi;
+use crate::error::Result;
+use crate::geom::Point;
+use crate::shape::crossings::Crossings;
+use crate::shape::wall::Wall;
+use crate::transform::{Isometry, Plane};
+use approach::approached;
+use opposite::opposite;
+use stretch::{Stretch, marked, stretches};
+
+/// Edges to either side of a crossing that are changed at first, and how often twice as many.
+const NEAR: usize = 2;
+const WIDER: u32 = 6;
+
+/// The outline of `wall` at `positions`, symmetric about `plane` but for details, without crossings that the wall has
+/// not, where that can be had.
+///
+/// # Errors
+/// [`crate::Error::Numerical`].
+pub fn uncrossed(
+    wall: &Wall,
+    body: &Igarashi,
+    positions: Vec<Point>,
+    plane: &Plane,
+) -> Result<Vec<Point>> {
+    let mut work = Uncrossing::new(wall, positions);
+    let mirror = Isometry::mirror(plane);
+    for wider in 0..WIDER {
+        work.take_from_the_other_side(&mirror, NEAR << wider);
+    }
+    for wider in 0..WIDER {
+        if work.pairs.is_empty() {
+            break;
+        }
+        let freed = work.stretches(NEAR << wider);
+        if work.let_go(body, &freed)? {
+            work.make_alike(&mirror, &freed);
+        }
+    }
+    Ok(work.positions)
+}
+
+/// How far the work has come.
+struct Uncrossing<'a> {
+    /// The outline at rest.
+    wall: &'a Wall,
+    crossings: Crossings,
+    /// Pairs of edges that cross at rest.
+    known: HashSet<[usize; 2]>,
+    positions: Vec<Point>,
+    /// Those that cross now and do not at rest.
+    pairs: Vec<[usize; 2]>,
+}
+
+impl<'a> Uncrossing<'a> {
+    fn new(wall: &'a Wall, positions: Vec<Point>) -> Self {
+        let mut work = Self {
+            crossings: Crossings::new(&wall.surface),
+            known: HashSet::new(),
+            pairs: Vec::new(),
+            positions: wall.surface.positions.clone(),
+            wall,
+        };
+        work.known = work.crossing(&work.positions).into_iter().collect();
+        work.pairs = work.crossing(&positions);
+        work.positions = positions;
+        work
+    }
+
+    /// The pairs of edges that cross at `positions` and not at rest.
+    fn crossing(&self, positions: &[Point]) -> Vec<[usize; 2]> {
+        let now = self.wall.surface.with_positions(positions.to_vec());
+        let mut crossings = self.crossings.clone();
+        crossings.follow(&now);
+        let faces = crossings.among(&now, |_| true);
+        let mut pairs: Vec<[usize; 2]> = faces.iter().map(|p| p.map(|f| f as usize / 2)).collect();
+        pairs.iter_mut().for_each(|p| p.sort_unstable());
+        pairs.sort_unstable();
+        pairs.dedup();
+        pairs.retain(|pair| !self.known.contains(pair));
+        pairs
+    }
+
+    /// Goes over to `positions` where fewer edges cross, or no more than `most`.
+    fn accept(&mut self, positions: Vec<Point>, most: usize) -> bool {
+        let pairs = self.crossing(&positions);
+        let better = pairs.len() <= most;
+        if better {
+            (self.positions, self.pairs) = (positions, pairs);
+        }
+        better
+    }
+
+    fn stretches(&self, beside: usize) -> Vec<Stretch> {
+        stretches(self.wall, &self.pairs, beside)
+    }
+
+    /// Gives what crosses, with so many edges to either side, the form of the other side where fewer cross by that.
+    fn take_from_the_other_side(&mut self, mirror: &Isometry, beside: usize) {
+        for stretch in self.stretches(beside) {
+            let taken = opposite(self.wall, &self.positions, mirror, &stretch);
+            if let Some(most) = self.pairs.len().checked_sub(1)
+                && let Some(taken) = taken
+            {
+                self.accept(taken, most);
+            }
+        }
+    }
+
+    /// Lets the stretches go where the inside takes them, and brings them back as far as nothing touches. Whether
+    /// fewer edges cross by that.
+    fn let_go(&mut self, body: &Igarashi, freed: &[Stretch]) -> Result<bool> {
+        let free = marked(self.wall, freed);
+        let opened = body.let_go(&self.positions, &free)?;
+        let left = self.crossing(&opened);
+        if left.len() >= self.pairs.len() {
+            return Ok(false);
+        }
+        let brought = approached(self.wall, &opened, &self.positions, &free);
+        if !self.accept(brought, left.len()) {
+            (self.positions, self.pairs) = (opened, left);
+        }
+        Ok(true)
+    }
+
+    /// Makes stretches that were changed on both sides alike, where nothing crosses by that.
+    fn make_alike(&mut self, mirror: &Isometry, changed: &[Stretch]) {
+        for stretch in changed {
+            if let Some(taken) = opposite(self.wall, &self.positions, mirror, stretch) {
+                self.accept(taken, self.pairs.len());
+            }
+        }
+    }
+}
