@@ -126,11 +126,11 @@ pub fn detect(
     let surface = fair.as_ref().unwrap_or(surface);
     let describer = Describer::new(surface, if fair.is_some() { WIDENING } else { 1.0 });
     let samples = ctx.stage("sample", |ctx| sample(&describer, &params.sample, ctx))?;
-    find(&describer, samples, params, false, ctx)
+    find(&describer, samples, params, None, ctx)
 }
 
-/// Finds the mirror lines of an outline, partial ones too, as mirrors at right angles to its plane, and the turns that
-/// hold for the whole of it.
+/// Finds the mirror lines of an outline, partial ones too, as mirrors at right angles to its plane, and the turns of
+/// the whole, or of rings that have them by themselves.
 ///
 /// # Errors
 /// As [`detect`].
@@ -149,16 +149,16 @@ pub fn detect_in_plane(
     let samples = ctx.stage("sample", |ctx| {
         sample_outline(&describer, wall, &params.sample, ctx)
     })?;
-    find(&describer, samples, &params, rotations, ctx)
+    find(&describer, samples, &params, rotations.then_some(wall), ctx)
 }
 
-/// What there is to be found among `samples` of the surface of `describer`; with the turns of the whole where it is
-/// an outline that may be `turned`.
+/// What there is to be found among `samples` of the surface of `describer`; with the turns of the whole or of rings
+/// where it is a wall that may be `turned`.
 fn find(
     describer: &Describer<'_>,
     samples: Samples,
     params: &DetectParams,
-    turned: bool,
+    turned: Option<&Wall>,
     ctx: &mut Context<'_>,
 ) -> Result<Detection> {
     let surface = describer.surface;
@@ -219,9 +219,10 @@ fn find(
             complete::complete(&surroundings, &mut symmetries, &drifting, ctx)
         })?;
     }
-    if turned {
-        symmetries.extend(turns::turns(&ground));
-    }
+    let turns = turned.map_or_else(Vec::new, |wall| turns::turns(&ground, wall));
+    let (lines, turns): (Vec<_>, Vec<_>) = turns.into_iter().map(|t| (t.line, t.symmetry)).unzip();
+    let first = symmetries.len();
+    symmetries.extend(turns);
     for (id, s) in (0..).zip(&mut symmetries) {
         s.id = id;
     }
@@ -230,12 +231,12 @@ fn find(
         .filter(|c| c.is_telling(&samples))
         .cloned()
         .collect();
-    let turn = symmetries
-        .iter()
-        .find(|s| turned && s.class == Class::Proper);
-    let groups = match turn {
-        Some(turn) => vec![turns::group(turn, &symmetries)],
-        None => arrange::arrange(&surroundings, &symmetries),
+    let turns = symmetries[first..].iter().zip(&lines);
+    let groups = match lines.is_empty() {
+        true => arrange::arrange(&surroundings, &symmetries),
+        false => turns
+            .map(|(turn, line)| turns::group(turn, line.as_ref(), &symmetries))
+            .collect(),
     };
     Ok(Detection {
         samples,

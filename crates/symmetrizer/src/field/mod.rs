@@ -73,7 +73,7 @@ pub fn find(
     ctx.check()?;
     // In the plane nearly all starts cover nearly all.
     let worth = |field: &SymmetryField| match land.wall {
-        Some(_) => field.cover() * trust::Trust::of(land, field).likeness(),
+        Some(_) => field.cover() * trust::likeness(land, field),
         None => field.cover(),
     };
     let mut worths: Vec<f64> = grown.iter().map(worth).collect();

@@ -38,6 +38,7 @@ pub fn uncrossed(
 ) -> Result<Vec<Point>> {
     let mut work = Uncrossing::new(wall, positions);
     let mirror = Isometry::mirror(plane);
+    work.cut_short();
     for wider in 0..WIDER {
         work.take_from_the_other_side(&mirror, NEAR << wider);
     }
@@ -50,18 +51,25 @@ pub fn uncrossed(
             work.make_alike(&mirror, &freed);
         }
     }
+    work.cut_short();
     Ok(work.positions)
 }
+
+/// Loops of no more edges are cut short.
+const SHORT: usize = 4;
+
+/// Edges that follow each other and turn by more than where this is the cosine lie on each other.
+const BACK: f64 = -0.985;
 
 /// How far the work has come.
 struct Uncrossing<'a> {
     /// The outline at rest.
     wall: &'a Wall,
     crossings: Crossings,
-    /// Pairs of edges that cross at rest.
+    /// Pairs of edges that cross at rest, or lie on each other.
     known: HashSet<[usize; 2]>,
     positions: Vec<Point>,
-    /// Those that cross now and do not at rest.
+    /// Those that do now and not at rest.
     pairs: Vec<[usize; 2]>,
 }
 
@@ -80,18 +88,30 @@ impl<'a> Uncrossing<'a> {
         work
     }
 
-    /// The pairs of edges that cross at `positions` and not at rest.
+    /// The pairs of edges that cross at `positions`, or lie on each other, and do not at rest.
     fn crossing(&self, positions: &[Point]) -> Vec<[usize; 2]> {
         let now = self.wall.surface.with_positions(positions.to_vec());
         let mut crossings = self.crossings.clone();
         crossings.follow(&now);
         let faces = crossings.among(&now, |_| true);
         let mut pairs: Vec<[usize; 2]> = faces.iter().map(|p| p.map(|f| f as usize / 2)).collect();
+        pairs.extend(self.turned_back(positions));
         pairs.iter_mut().for_each(|p| p.sort_unstable());
         pairs.sort_unstable();
         pairs.dedup();
         pairs.retain(|pair| !self.known.contains(pair));
         pairs
+    }
+
+    /// Edges and those that follow them, where the outline turns back on itself: two that meet do not cross.
+    fn turned_back(&self, positions: &[Point]) -> Vec<[usize; 2]> {
+        let way = |e: usize| positions[2 * self.wall.next(e)] - positions[2 * e];
+        let back = |&[e, next]: &[usize; 2]| {
+            let (a, b) = (way(e), way(next));
+            a.dot(&b) < BACK * a.norm() * b.norm()
+        };
+        let all = (0..self.wall.edges()).map(|e| [e, self.wall.next(e)]);
+        all.filter(back).collect()
     }
 
     /// Goes over to `positions` where fewer edges cross, or no more than `most`.
@@ -102,6 +122,20 @@ impl<'a> Uncrossing<'a> {
             (self.positions, self.pairs) = (positions, pairs);
         }
         better
+    }
+
+    /// Draws loops of a few edges straight, one after the other, where fewer cross by that.
+    fn cut_short(&mut self) {
+        let mut tried = HashSet::new();
+        loop {
+            let stretches = stretches(self.wall, &self.pairs, 0).into_iter();
+            let mut short = stretches.filter(|s| s.edges.len() <= SHORT && s.edges.len() > 1);
+            let Some(stretch) = short.find(|s| tried.insert(s.edges[0])) else {
+                return;
+            };
+            let most = self.pairs.len().saturating_sub(1);
+            self.accept(straight(self.wall, &self.positions, &stretch), most);
+        }
     }
 
     fn stretches(&self, beside: usize) -> Vec<Stretch> {
@@ -144,4 +178,19 @@ impl<'a> Uncrossing<'a> {
             }
         }
     }
+}
+
+/// `positions` with the starts of edges within a stretch evenly between its ends.
+fn straight(wall: &Wall, positions: &[Point], stretch: &Stretch) -> Vec<Point> {
+    let count = stretch.edges.len();
+    let (first, last) = (stretch.edges[0], wall.next(stretch.edges[count - 1]));
+    let mut drawn = positions.to_vec();
+    for (k, &e) in stretch.edges.iter().enumerate().skip(1) {
+        let share = k as f64 / count as f64;
+        for side in 0..2 {
+            let (a, b) = (positions[2 * first + side], positions[2 * last + side]);
+            drawn[2 * e + side] = a + share * (b - a);
+        }
+    }
+    drawn
 }
