@@ -7,8 +7,8 @@ use crate::shape::wall::Wall;
 use crate::shape::working::Normalization;
 use crate::shape::{ClosestPoint, Surface};
 
-/// Vertices whose neighbours turn by less, radians, take along what is around them as they turn; those whose
-/// neighbours turn by more leave it to the triangles. On the way round a corner that closes, an edge would bulge.
+/// Edges bulge where vertices turn by less than their neighbours do, radians, and not where by more: on the way round a
+/// corner that closes they would come to lie across each other.
 const CALM: [f64; 2] = [0.15, 0.45];
 
 /// Where all of the plane goes with an outline: with the triangles inside; around it, with the nearest place on it.
@@ -16,7 +16,7 @@ pub struct Follow {
     normalization: Normalization,
     rest: Surface,
     closest: ClosestPoint,
-    /// Where the vertices of the inside go, how their surroundings turn, and how far they take these along, 0 to 1.
+    /// Where the vertices of the inside go, how their surroundings turn, and how far edges bulge there, 0 to 1.
     places: Vec<Point>,
     rotations: Vec<Matrix3>,
     calm: Vec<f64>,
@@ -44,32 +44,27 @@ impl Follow {
         })
     }
 
-    /// Where a place of the drawing goes: each corner of the triangle there, or nearest to it, takes it along as it
-    /// turns itself.
+    /// Where a place of the drawing goes: with the triangle there, or nearest to it, whose edges bulge as its corners
+    /// turn.
     pub fn place(&self, x: &Point) -> Point {
         let x = self.normalization.to_working(x);
         let Some(hit) = self.closest.nearest(&x, f64::INFINITY) else {
             return x;
         };
-        let corners = self.rest.triangles[hit.at.face as usize];
-        let at = |places: &[Point]| {
-            let terms = corners.iter().zip(hit.at.bary);
-            terms
-                .map(|(&v, b)| b * places[v as usize].coords)
-                .sum::<Vector>()
+        let corners = self.rest.triangles[hit.at.face as usize].map(|v| v as usize);
+        let terms = || corners.iter().zip(hit.at.bary);
+        let plain: Vector = terms().map(|(&v, b)| b * self.places[v].coords).sum();
+        let turned = |way: &dyn Fn(usize) -> Vector| -> Vector {
+            let along = terms().map(|(&v, b)| b * (self.rotations[v] * way(v)));
+            along.sum()
         };
-        // As the triangle has it, with what lies beside it carried along.
-        let plain = at(&self.places);
-        let foot = Point::from(at(&self.rest.positions));
-        let carried = corners.iter().zip(hit.at.bary).map(|(&v, b)| {
-            let v = v as usize;
-            let (rest, turn) = (self.rest.positions[v], self.rotations[v]);
-            let along = plain - self.places[v].coords + turn * (x - foot);
-            let taken = turn * (x - rest);
-            let calm = self.calm[v];
-            b * (self.places[v].coords + calm * taken + (1.0 - calm) * along)
-        });
-        let moved = Point::from(carried.sum::<Vector>());
+        let bulge = turned(&|v| hit.point - self.rest.positions[v]);
+        let beside = turned(&|_| x - hit.point);
+        let calm = corners
+            .map(|v| self.calm[v])
+            .into_iter()
+            .fold(1.0, f64::min);
+        let moved = Point::from(plain + calm * bulge + beside);
         let moved = self.normalization.to_document(&moved);
         Point::new(moved.x, moved.y, 0.0)
     }
@@ -78,10 +73,11 @@ impl Follow {
 /// How calm it is around each vertex: 1 where its neighbours turn as it does, 0 where they do not.
 fn calm(rest: &Surface, rotations: &[Matrix3]) -> Vec<f64> {
     let mut most = vec![0.0_f64; rotations.len()];
-    let angle = |m: &Matrix3| m[(1, 0)].atan2(m[(0, 0)]);
+    // Where the inside is turned over, by half a turn about an axis of the plane.
+    let angle = |m: &Matrix3| ((m.trace() - 1.0) / 2.0).clamp(-1.0, 1.0).acos();
     for [u, v] in rest.edges() {
         let (u, v) = (u as usize, v as usize);
-        let apart = angle(&(rotations[u].transpose() * rotations[v])).abs();
+        let apart = angle(&(rotations[u].transpose() * rotations[v]));
         most[u] = most[u].max(apart);
         most[v] = most[v].max(apart);
     }

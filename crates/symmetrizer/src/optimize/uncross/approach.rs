@@ -92,3 +92,46 @@ fn distance(x: &Point, [a, b]: [Point; 2]) -> f64 {
     let t = (x - a).dot(&way) / way.norm_squared().max(f64::MIN_POSITIVE);
     (x - (a + t.clamp(0.0, 1.0) * way)).norm()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square with a slot from above, whose sides are to go to the places that the slot's `width` says.
+    fn slotted(width: f64) -> Vec<Point> {
+        let x = width / 2.0;
+        let corners = [
+            [-1.0, 0.0],
+            [1.0, 0.0],
+            [1.0, 2.0],
+            [x, 2.0],
+            [x, 1.0],
+            [-x, 1.0],
+            [-x, 2.0],
+            [-1.0, 2.0],
+        ];
+        corners.map(|[x, y]| Point::new(x, y, 0.0)).to_vec()
+    }
+
+    #[test]
+    fn sides_of_a_slot_stop_before_they_meet() {
+        let wall = Wall::new(&[slotted(0.2)]).expect("a wall");
+        let scale = wall.normalization.scale;
+        let half = 0.1 / scale;
+        let opened = wall.surface.positions.clone();
+        let slot = |x: &Point| x.x.abs() <= half + 1e-9 && x.y > 0.0;
+        let free: Vec<bool> = (0..wall.edges()).map(|e| slot(&wall.start(e))).collect();
+        // Each side is to go to beyond where the other is.
+        let across = |x: &Point| Point::new(if slot(x) { -x.x } else { x.x }, x.y, x.z);
+        let wanted: Vec<Point> = opened.iter().map(across).collect();
+        let now = approached(&wall, &opened, &wanted, &free);
+        for e in 0..wall.edges() {
+            let (was, is) = (opened[2 * e], now[2 * e]);
+            assert!(free[e] || was == is, "{e}");
+            if free[e] && was.x.abs() > half - 1e-9 && was.y > 0.35 / scale {
+                assert!(is.x * was.x > 0.0, "{e}: {was} {is}");
+                assert!(is.x.abs() < 0.1 * half, "{e}: {is}");
+            }
+        }
+    }
+}

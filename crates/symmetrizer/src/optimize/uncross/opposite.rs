@@ -70,3 +70,41 @@ fn within(now: &Wall, stretch: &Stretch, ring: usize, along: f64) -> bool {
     let (edge, _) = Wall::on_edge(&now.at(ring, along));
     stretch.edges.contains(&edge)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Vector;
+    use crate::optimize::uncross::stretch::stretches;
+    use crate::transform::Plane;
+
+    /// An ellipse whose radius is changed on one side.
+    fn dented(depth: f64) -> Vec<Point> {
+        let point = |k: u32| {
+            let angle = f64::from(k) / 3000.0 * std::f64::consts::TAU;
+            let dent = 1.0 - depth * (-(angle / 0.02).powi(2)).exp();
+            Point::new(dent * angle.cos(), 1.5 * angle.sin(), 0.0)
+        };
+        (0..3000).map(point).collect()
+    }
+
+    #[test]
+    fn a_dent_of_one_side_goes() {
+        let wall = Wall::new(&[dented(0.0)]).expect("a wall");
+        let normalization = wall.normalization;
+        let dented = dented(0.02);
+        let at = |e: usize| normalization.to_working(&dented[e]);
+        let positions: Vec<Point> = (0..2 * wall.edges())
+            .map(|v| Point::new(at(v / 2).x, at(v / 2).y, wall.surface.positions[v].z))
+            .collect();
+        let mirror = Isometry::mirror(&Plane::through(&Point::origin(), Vector::x()));
+        let around = stretches(&wall, &[[2999, 0]], 60);
+        let taken = opposite(&wall, &positions, &mirror, &around[0]).expect("another side");
+        let away = taken.iter().zip(&wall.surface.positions);
+        let most = away.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+        assert!(most < 1e-4, "{most}");
+        // At the line there is no other side.
+        let top = stretches(&wall, &[[749, 750]], 60);
+        assert!(opposite(&wall, &positions, &mirror, &top[0]).is_none());
+    }
+}
