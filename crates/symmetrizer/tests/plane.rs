@@ -242,7 +242,6 @@ fn no_outline_comes_to_cross_itself() {
         ("2d/gecko_gi.svg", false),
         ("2d/bat_fold.traced.svg", false),
         ("2d/maple_leaf_gi.svg", false),
-        ("2d/butterfly_outline.svg", false),
         ("2d/gecko_photo.traced.svg", true),
         ("2d/turtle_tilt.traced.svg", true),
     ] {
