@@ -8,7 +8,7 @@ use crate::geom::Point;
 use crate::shape::wall::Wall;
 
 /// Steps at the most.
-const STEPS: usize = 60;
+const STEPS: usize = 150;
 /// Share of a distance that a step may use up from either side.
 const SHARE: f64 = 0.45;
 /// How near parts of the outline may come to each other, fraction of L, that lie more than so many edges apart along it.

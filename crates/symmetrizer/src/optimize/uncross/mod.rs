@@ -58,6 +58,9 @@ pub fn uncrossed(
 /// Loops of no more edges are cut short.
 const SHORT: usize = 4;
 
+/// What was let go comes back to within this of where it was, fraction of L: a tail that stays bent is no remedy.
+const ASTRAY: f64 = 0.03;
+
 /// Edges that follow each other and turn by more than where this is the cosine lie on each other.
 const BACK: f64 = -0.985;
 
@@ -142,20 +145,29 @@ impl<'a> Uncrossing<'a> {
         stretches(self.wall, &self.pairs, beside)
     }
 
-    /// Gives what crosses, with so many edges to either side, the form of the other side where fewer cross by that.
+    /// Gives what crosses, with so many edges to either side, the form of the other side where fewer cross by that:
+    /// one stretch, both sides of a crossing, or all.
     fn take_from_the_other_side(&mut self, mirror: &Isometry, beside: usize) {
-        for stretch in self.stretches(beside) {
-            let taken = opposite(self.wall, &self.positions, mirror, &stretch);
-            if let Some(most) = self.pairs.len().checked_sub(1)
-                && let Some(taken) = taken
-            {
+        let all = self.stretches(beside);
+        let pairs = self.pairs.iter();
+        let mut sets: Vec<Vec<Stretch>> = all.iter().map(|s| vec![s.clone()]).collect();
+        sets.extend(pairs.map(|pair| stretches(self.wall, &[*pair], beside)));
+        sets.push(all);
+        for set in sets {
+            let Some(most) = self.pairs.len().checked_sub(1) else {
+                return;
+            };
+            let taken = set.iter().try_fold(self.positions.clone(), |x, stretch| {
+                opposite(self.wall, &x, mirror, stretch)
+            });
+            if let Some(taken) = taken {
                 self.accept(taken, most);
             }
         }
     }
 
     /// Lets the stretches go where the inside takes them, and brings them back as far as nothing touches. Whether
-    /// fewer edges cross by that.
+    /// fewer edges cross by that, and all has come back to near where it was.
     fn let_go(&mut self, body: &Igarashi, freed: &[Stretch]) -> Result<bool> {
         let free = marked(self.wall, freed);
         let opened = body.let_go(&self.positions, &free)?;
@@ -164,10 +176,9 @@ impl<'a> Uncrossing<'a> {
             return Ok(false);
         }
         let brought = approached(self.wall, &opened, &self.positions, &free);
-        if !self.accept(brought, left.len()) {
-            (self.positions, self.pairs) = (opened, left);
-        }
-        Ok(true)
+        let ways = brought.iter().zip(&self.positions);
+        let farthest = ways.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+        Ok(farthest <= ASTRAY && self.accept(brought, left.len()))
     }
 
     /// Makes stretches that were changed on both sides alike, where nothing crosses by that.
