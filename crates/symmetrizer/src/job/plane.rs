@@ -172,6 +172,20 @@ pub(super) fn sought(params: &Params) -> DetectParams {
     }
 }
 
+/// Turns of rings that hold for this share of an outline come before a line that holds for little more: so much of what
+/// it holds for.
+const TURNED: f64 = 0.4;
+const NO_LESS: f64 = 0.8;
+
+/// Whether the groups of turns `goals` come before the lines of a drawing, which rings with turns have, too.
+pub(super) fn turns_first(found: &Detected, goals: &[Goal]) -> bool {
+    let share: f64 = goals.iter().map(|g| g.area_fraction).sum();
+    let lines = mirrors(&found.detection).map(|s| s.area_fraction);
+    let widest = lines.fold(0.0, f64::max);
+    let whole = goals.iter().any(Goal::is_of_the_whole);
+    whole || share >= TURNED && share >= NO_LESS * widest
+}
+
 /// The groups of a drawing that has turns, of each ring's or of the whole; with more than turns where there are lines,
 /// too.
 pub(super) fn groups(found: &Detected, settings: Settings<'_>) -> Vec<Goal> {

@@ -4,7 +4,7 @@ use crate::shape::wall::Wall;
 
 /// Crossings whose edges lie no further apart along their ring than this share of it are loops: what lies between is
 /// changed with them.
-const LOOP: f64 = 0.125;
+const LOOP: f64 = 0.05;
 
 /// Edges of a ring that follow each other, fewer than all.
 #[derive(Debug, Clone, PartialEq, Eq)]
