@@ -87,10 +87,6 @@ fn formats_of_drawings_are_told_from_those_of_shapes() {
         ),
         (vec!["run", "model:creature", "-o", "out.svg"], "out.svg"),
         (
-            vec!["run", "leaf.svg", "-o", "out.svg", "--stiffness", "2"],
-            "--stiffness",
-        ),
-        (
             vec!["run", "model:creature", "-o", "out.ply", "--exact"],
             "--exact",
         ),
@@ -136,6 +132,23 @@ fn bad_drawings_are_refused_with_what_is_wrong() {
             "{\"rings\": [[[0, 0], [1, 0]]]}",
             "rings.json",
         ),
+        (
+            "huge.svg",
+            "<svg xmlns='http://www.w3.org/2000/svg'><path d='M0 0L1e300 0L0 1e300Z'/></svg>",
+            "coordinates",
+        ),
+        (
+            "bomb.svg",
+            "<!DOCTYPE svg [<!ENTITY a 'aa'><!ENTITY b '&a;&a;'>]>\
+             <svg xmlns='http://www.w3.org/2000/svg'><text>&b;</text><path d='M0 0h9v9z'/></svg>",
+            "entity",
+        ),
+        (
+            "file.svg",
+            "<!DOCTYPE svg [<!ENTITY x SYSTEM 'file:///etc/hostname'>]>\
+             <svg xmlns='http://www.w3.org/2000/svg'><text>&x;</text><path d='M0 0h9v9z'/></svg>",
+            "entity",
+        ),
     ] {
         desk.write(name, text);
         let done = desk
@@ -145,4 +158,90 @@ fn bad_drawings_are_refused_with_what_is_wrong() {
         assert!(stderr(&done).contains(part), "{}", stderr(&done));
         assert!(!desk.files().contains(&"out.svg".to_owned()));
     }
+}
+
+#[test]
+fn drawings_are_as_stiff_as_their_files_say() {
+    let desk = Desk::new();
+    desk.write("leaf.svg", &leaf());
+    desk.write("path.json", "{\"per\": \"path\", \"values\": [0.5]}");
+    let places = "{\"per\": \"place\", \"places\": [[-100, 0], [100, 40]], \"values\": [0.1, 10]}";
+    desk.write("place.json", places);
+    let run = |stiffness: &str| {
+        let args = ["run", "leaf.svg", "-o", "out.svg", "--stiffness", stiffness];
+        let mut run = desk.symmetrize(&args);
+        run.args([
+            "--accept-uncertain",
+            "--write-unchanged",
+            "--report",
+            "r.json",
+        ]);
+        // Whatever came of the leaf, the report says how stiff it was.
+        let done = run.assert();
+        assert!(!stderr(&done).contains("error"), "{}", stderr(&done));
+        desk.json("r.json")
+    };
+    for (stiffness, least, most) in [
+        ("2", 2.0, 2.0),
+        ("path.json", 0.5, 0.5),
+        ("place.json", 0.1, 10.0),
+    ] {
+        let report = run(stiffness);
+        assert!(
+            (number(&report, "/stiffness/min") - least).abs() < 1e-12,
+            "{stiffness}"
+        );
+        assert!(
+            (number(&report, "/stiffness/max") - most).abs() < 1e-12,
+            "{stiffness}"
+        );
+    }
+    desk.write("vertex.json", "{\"per\": \"vertex\", \"values\": [1, 2]}");
+    desk.write("none.json", "{\"per\": \"place\", \"values\": [1]}");
+    desk.write("few.json", "{\"per\": \"path\", \"values\": []}");
+    for (stiffness, part) in [
+        ("vertex.json", "per path or place"),
+        ("none.json", "each place has a value"),
+        ("few.json", "has 0 values"),
+        ("-1", "positive"),
+    ] {
+        let flag = format!("--stiffness={stiffness}");
+        let args = ["run", "leaf.svg", "-o", "no.svg", &flag];
+        let done = desk.symmetrize(&args).assert().code(2);
+        assert!(
+            stderr(&done).contains(part),
+            "{stiffness}: {}",
+            stderr(&done)
+        );
+    }
+    // What is for drawings is refused for meshes.
+    let args = [
+        "run",
+        "model:creature",
+        "-o",
+        "no.ply",
+        "--stiffness",
+        "place.json",
+    ];
+    let done = desk.symmetrize(&args).assert().code(2);
+    assert!(stderr(&done).contains("for drawings"), "{}", stderr(&done));
+}
+
+#[test]
+fn nothing_outside_a_drawing_is_opened() {
+    let desk = Desk::new();
+    desk.write(
+        "secret.svg",
+        "<svg xmlns='http://www.w3.org/2000/svg'><path id='a' d='M0 0h900v900z'/></svg>",
+    );
+    desk.write(
+        "in.svg",
+        "<svg xmlns='http://www.w3.org/2000/svg'><use href='secret.svg#a'/><image href='secret.svg' \
+         width='500' height='500'/><path d='M0 0h60v50l-30 20l-30 -20z'/></svg>",
+    );
+    desk.symmetrize(&["convert", "in.svg", "out.json"])
+        .assert()
+        .success();
+    let text = String::from_utf8(desk.bytes("out.json")).expect("text");
+    assert!(!text.contains("900"), "{text}");
 }

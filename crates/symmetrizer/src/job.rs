@@ -2,6 +2,8 @@
 
 mod arranged;
 mod bent;
+mod firm;
+mod follow;
 mod guard;
 pub mod kinds;
 mod measured;
@@ -33,7 +35,10 @@ use crate::transform::{Elements, Plane};
 
 pub use bent::Bent;
 pub use measured::{Measured, measure_in};
-pub use plane::{Drawn, detect_drawing, measure_drawing, symmetrize_drawing, unbend_drawing};
+pub use plane::{
+    Drawn, detect_drawing, measure_drawing, symmetrize_drawing, symmetrize_drawing_with,
+    unbend_drawing,
+};
 
 /// A state of a shape and the symmetries found in it.
 pub struct Detected {
@@ -141,6 +146,7 @@ pub fn symmetrize_with(
     mesh.check()?;
     params.check()?;
     let before = find_in(Working::new(mesh)?, mesh, &params.detect(), ctx)?;
+    let stiffness = stiffness.per_face(&before.working);
     made(mesh, before, stiffness, params, false, ctx)
 }
 
@@ -154,7 +160,7 @@ pub fn unbend(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result<Sym
     params.optimize.final_steps = 0;
     params.optimize.finish_rounds = 0;
     let before = mirrors_in(mesh, &params, ctx)?;
-    made(mesh, before, &Stiffness::default(), &params, true, ctx)
+    made(mesh, before, None, &params, true, ctx)
 }
 
 /// The mirrors of a mesh that is to be unbent.
@@ -165,11 +171,12 @@ fn mirrors_in(mesh: &Mesh, params: &Params, ctx: &mut Context<'_>) -> Result<Det
     find_in(Working::new(mesh)?, mesh, &detect, ctx)
 }
 
-/// [`symmetrize_with`], or [`unbend`] where `only` that is to be done, of `mesh` whose symmetries were found.
+/// [`symmetrize_with`], or [`unbend`] where `only` that is to be done, of `mesh` whose symmetries were found and whose
+/// faces are as stiff.
 fn made(
     mesh: &Mesh,
     mut before: Detected,
-    stiffness: &Stiffness,
+    stiffness: Option<Vec<f64>>,
     params: &Params,
     only: bool,
     ctx: &mut Context<'_>,
@@ -179,7 +186,6 @@ fn made(
         None => params.detect().mirrors_only(),
     };
     let measured = ctx.stage("measure", |ctx| before.asymmetry(&[], ctx))?;
-    let stiffness = stiffness.per_face(&before.working);
     let wall = before.wall.clone();
     let settings = settings_for(wall.as_ref(), stiffness.as_deref(), &detect, params);
     let mean = measured.mean / 100.0 * before.diagonal;
@@ -268,8 +274,8 @@ fn sought_again(params: &Params, detect: &DetectParams, before: &Detected) -> De
     }
 }
 
-/// A drawing with its group or its one line made exact, straight or bent; or a shape of which `only` the bend is to be
-/// undone. Its asymmetry is that `mean` (fraction of L), or it is `exact`.
+/// A drawing with its group or its one line made exact, straight or bent, or else the turns of some of its rings; or a
+/// shape of which `only` the bend is to be undone. Its asymmetry is that `mean` (fraction of L), or it is `exact`.
 fn mirrored(
     before: &Detected,
     (mean, exact): (f64, bool),
@@ -278,11 +284,17 @@ fn mirrored(
     ctx: &mut Context<'_>,
 ) -> Result<Arranged> {
     let surface = &before.working.surface;
-    if let Some(goal) = plane::group(before, settings).filter(|_| !only) {
-        let done = ctx.stage("orbits", |ctx| {
-            orbits(surface, &before.detection, &[goal], settings, ctx)
-        })?;
-        return Ok(Arranged::plain(done));
+    let goals = match only {
+        true => Vec::new(),
+        false => plane::groups(before, settings),
+    };
+    let turned = |ctx: &mut Context<'_>| {
+        ctx.stage("orbits", |ctx| {
+            orbits(surface, &before.detection, &goals, settings, ctx)
+        })
+    };
+    if plane::turns_first(before, &goals) {
+        return Ok(Arranged::plain(turned(ctx)?));
     }
     let unmoved = |outcome| Optimized::unmoved(surface, &before.detection, outcome);
     if exact && mirrors(&before.detection).next().is_some() {
@@ -295,7 +307,10 @@ fn mirrored(
     let looked = bent::unbend(before, mean, &params.straighten, settings, ctx)?;
     let done = match looked.done {
         Some(done) => done,
-        None if only || !plane::mirrored(before) => unmoved(Outcome::NoSymmetry),
+        None if only || !plane::mirrored(before) => match goals.is_empty() {
+            true => unmoved(Outcome::NoSymmetry),
+            false => turned(ctx)?,
+        },
         None => optimize(surface, &before.detection, settings, ctx)?,
     };
     Ok(Arranged {

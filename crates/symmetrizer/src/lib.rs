@@ -32,8 +32,8 @@ pub use drawing::Drawing;
 pub use error::{Error, Result, Warning};
 pub use job::{
     Detected, Drawn, Measured, Symmetrized, detect_document, detect_drawing, detect_in,
-    measure_drawing, measure_in, symmetrize, symmetrize_drawing, symmetrize_with, unbend,
-    unbend_drawing,
+    measure_drawing, measure_in, symmetrize, symmetrize_drawing, symmetrize_drawing_with,
+    symmetrize_with, unbend, unbend_drawing,
 };
 pub use optimize::Outcome;
 pub use params::Params;

@@ -7,7 +7,7 @@ use symmetrizer::deform::Stiffness;
 use symmetrizer::job::pictures;
 use symmetrizer::shape::{Document, io};
 use symmetrizer::{
-    Context, Drawn, Error, Outcome, Params, Result, Symmetrized, Warning, symmetrize_drawing,
+    Context, Drawn, Error, Outcome, Params, Result, Symmetrized, Warning, symmetrize_drawing_with,
     symmetrize_with, unbend, unbend_drawing,
 };
 
@@ -43,7 +43,9 @@ pub struct RunArgs {
     max_deformation: Option<f64>,
     /// How stiff the shape is, 1 as usual: soft regions take up the deformation, stiff ones move as one
     /// piece. One number for all of it, or a file: a PLY with the property `stiffness` per vertex or
-    /// face, or JSON {"per": "vertex", "values": [..]} (or "face")
+    /// face, or JSON {"per": "vertex", "values": [..]} (or "face"; of an SVG file "path", in the order of
+    /// painting); of any drawing {"per": "place", "places": [[x, y], ..], "values": [..]}, in its file's
+    /// coordinates, everywhere the value of the nearest place
     #[arg(long, value_name = "NUMBER|FILE")]
     stiffness: Option<String>,
     #[command(flatten)]
@@ -89,12 +91,9 @@ pub fn run(args: &RunArgs, desk: &Desk) -> Result<Answer> {
             let job = symmetrize_with(&document.mesh, &stiffness, params, ctx)?;
             Ok(Done::shape(document, job))
         }
-        Subject::Drawing(_) if args.stiffness.is_some() => {
-            let what = "is for shapes of space; a drawing is as stiff everywhere";
-            Err(Error::params("--stiffness", what))
-        }
         Subject::Drawing(drawing) => {
-            Done::drawing(symmetrize_drawing(drawing, params, ctx)?, args.exact)
+            let drawn = symmetrize_drawing_with(drawing, &stiffness, params, ctx)?;
+            Done::drawing(drawn, args.exact)
         }
     })
 }

@@ -15,6 +15,10 @@ pub enum Stiffness {
     Vertices(Vec<f64>),
     /// One for each polygon of the document.
     Polygons(Vec<f64>),
+    /// One for each path of a drawing, counted in the order of painting.
+    Paths(Vec<f64>),
+    /// At places of a drawing, in the coordinates of its file: everywhere that of the nearest.
+    Places(Vec<([f64; 2], f64)>),
 }
 
 impl Default for Stiffness {
@@ -43,7 +47,8 @@ impl Stiffness {
             .or_else(|| values(On::Vertex, mesh.positions.len()).map(Self::Vertices))
     }
 
-    /// From `{"per": "vertex" or "face", "values": [..]}`.
+    /// From `{"per": "vertex", "face" or "path", "values": [..]}`, or `{"per": "place", "places": [[x, y], ..],
+    /// "values": [..]}`.
     ///
     /// # Errors
     /// [`Error::Params`] for anything else.
@@ -52,6 +57,7 @@ impl Stiffness {
         #[serde(deny_unknown_fields)]
         struct Field {
             per: Per,
+            places: Option<Vec<[f64; 2]>>,
             values: Vec<f64>,
         }
         #[derive(serde::Deserialize)]
@@ -59,35 +65,57 @@ impl Stiffness {
         enum Per {
             Vertex,
             Face,
+            Path,
+            Place,
         }
-        let field: Field = serde_json::from_str(text).map_err(|e| {
-            let form = r#"{"per": "vertex" or "face", "values": [..]}"#;
-            Error::params(PROPERTY, format!("is not of the form {form}: {e}"))
-        })?;
-        Ok(match field.per {
-            Per::Vertex => Self::Vertices(field.values),
-            Per::Face => Self::Polygons(field.values),
+        let form = r#"{"per": "vertex", "face" or "path", "values": [..]} or {"per": "place", "places": [[x, y], ..], "values": [..]}"#;
+        let bad =
+            |what: &str| Error::params(PROPERTY, format!("is not of the form {form}: {what}"));
+        let field: Field = serde_json::from_str(text).map_err(|e| bad(&e.to_string()))?;
+        let values = field.values;
+        Ok(match (field.per, field.places) {
+            (Per::Vertex, None) => Self::Vertices(values),
+            (Per::Face, None) => Self::Polygons(values),
+            (Per::Path, None) => Self::Paths(values),
+            (Per::Place, Some(places)) if places.len() == values.len() && !places.is_empty() => {
+                Self::Places(places.into_iter().zip(values).collect())
+            }
+            (Per::Place, _) => return Err(bad("each place has a value, and each value a place")),
+            _ => return Err(bad("only values per place have places")),
         })
     }
 
     /// Whether it fits `mesh`.
     ///
     /// # Errors
-    /// [`Error::Params`] for a wrong count or values that are not positive and finite.
+    /// [`Error::Params`] for a wrong count, values that are not positive and finite, and what is for drawings.
     pub fn check(&self, mesh: &Mesh) -> Result<()> {
         let (values, wanted, what) = match self {
-            Self::Uniform(k) => (std::slice::from_ref(k), 1, "value"),
-            Self::Vertices(k) => (k.as_slice(), mesh.positions.len(), "vertices"),
-            Self::Polygons(k) => (k.as_slice(), mesh.polygons.len(), "faces"),
+            Self::Uniform(_) => return self.check_values(),
+            Self::Vertices(k) => (k, mesh.positions.len(), "vertices"),
+            Self::Polygons(k) => (k, mesh.polygons.len(), "faces"),
+            Self::Paths(_) | Self::Places(_) => {
+                let what = "is per path or place, which is for drawings; a mesh takes it per vertex or face";
+                return Err(Error::params(PROPERTY, what));
+            }
         };
-        if values.len() != wanted {
-            let count = values.len();
-            let what = format!("has {count} values, the shape {wanted} {what}");
-            return Err(Error::params(PROPERTY, what));
-        }
-        let bad = values.iter().position(|k| !(*k > 0.0 && k.is_finite()));
+        counted(values.len(), wanted, what)?;
+        self.check_values()
+    }
+
+    /// Whether all its values are positive and finite.
+    ///
+    /// # Errors
+    /// [`Error::Params`].
+    pub fn check_values(&self) -> Result<()> {
+        let all: Vec<f64> = match self {
+            Self::Uniform(k) => vec![*k],
+            Self::Vertices(k) | Self::Polygons(k) | Self::Paths(k) => k.clone(),
+            Self::Places(places) => places.iter().map(|p| p.1).collect(),
+        };
+        let bad = all.iter().position(|k| !(*k > 0.0 && k.is_finite()));
         bad.map_or(Ok(()), |i| {
-            let what = format!("must be positive and finite; value {i} is {}", values[i]);
+            let what = format!("must be positive and finite; value {i} is {}", all[i]);
             Err(Error::params(PROPERTY, what))
         })
     }
@@ -108,6 +136,20 @@ impl Stiffness {
                 let mean = |corners: &[u32; 3]| corners.iter().map(|&v| at(v)).sum::<f64>() / 3.0;
                 Some(faces.iter().map(mean).collect())
             }
+            // A surface of space has neither.
+            Self::Paths(_) | Self::Places(_) => None,
         }
     }
+}
+
+/// Fails where there are `values` where as many as the shape's are `wanted`.
+///
+/// # Errors
+/// [`Error::Params`].
+pub fn counted(values: usize, wanted: usize, what: &str) -> Result<()> {
+    if values == wanted {
+        return Ok(());
+    }
+    let what = format!("has {values} values, the shape {wanted} {what}");
+    Err(Error::params(PROPERTY, what))
 }

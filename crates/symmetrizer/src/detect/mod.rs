@@ -178,7 +178,7 @@ pub fn detect(
     let surface = fair.as_ref().unwrap_or(surface);
     let describer = Describer::new(surface, if fair.is_some() { WIDENING } else { 1.0 });
     let samples = ctx.stage("sample", |ctx| sample(&describer, &params.sample, ctx))?;
-    find(&describer, samples, params, (false, &[]), ctx)
+    find(&describer, samples, params, Given::default(), ctx)
 }
 
 /// Finds the symmetries of `surface` once more, with `params` that differ in what is wanted and in where patches end: its samples are those
@@ -196,11 +196,15 @@ pub fn detect_anew(
     let surface = fair.as_ref().unwrap_or(surface);
     let describer = Describer::new(surface, if fair.is_some() { WIDENING } else { 1.0 });
     let samples = found.samples.clone();
-    find(&describer, samples, params, (false, &found.clouds), ctx)
+    let given = Given {
+        known: &found.clouds,
+        ..Given::default()
+    };
+    find(&describer, samples, params, given, ctx)
 }
 
-/// Finds the mirror lines of an outline, partial ones too, as mirrors at right angles to its plane, and the turns that
-/// hold for the whole of it.
+/// Finds the mirror lines of an outline, partial ones too, as mirrors at right angles to its plane, and the turns of
+/// the whole, or of rings that have them by themselves.
 ///
 /// # Errors
 /// As [`detect`].
@@ -219,16 +223,28 @@ pub fn detect_in_plane(
     let samples = ctx.stage("sample", |ctx| {
         sample_outline(&describer, wall, &params.sample, ctx)
     })?;
-    find(&describer, samples, &params, (rotations, &[]), ctx)
+    let given = Given {
+        turned: rotations.then_some(wall),
+        ..Given::default()
+    };
+    find(&describer, samples, &params, given, ctx)
 }
 
-/// What there is to be found among `samples` of the surface of `describer`; with the turns of the whole where it is
-/// an outline that may be `turned`. The votes of mirrors are `known` where there are any.
+/// What is known before the search.
+#[derive(Default)]
+struct Given<'a> {
+    /// The wall that the surface is, where turns of the whole or of rings are looked for.
+    turned: Option<&'a Wall>,
+    /// Clouds of votes of the same samples; that of mirrors is used again.
+    known: &'a [Cloud],
+}
+
+/// What there is to be found among `samples` of the surface of `describer`.
 fn find(
     describer: &Describer<'_>,
     samples: Samples,
     params: &DetectParams,
-    (turned, known): (bool, &[Cloud]),
+    Given { turned, known }: Given<'_>,
     ctx: &mut Context<'_>,
 ) -> Result<Detection> {
     let surface = describer.surface;
@@ -288,9 +304,10 @@ fn find(
             complete::complete(&surroundings, &mut symmetries, &drifting, ctx)
         })?;
     }
-    if turned {
-        symmetries.extend(turns::turns(&ground));
-    }
+    let turns = turned.map_or_else(Vec::new, |wall| turns::turns(&ground, wall));
+    let (lines, turns): (Vec<_>, Vec<_>) = turns.into_iter().map(|t| (t.line, t.symmetry)).unzip();
+    let first = symmetries.len();
+    symmetries.extend(turns);
     for (id, s) in (0..).zip(&mut symmetries) {
         s.id = id;
     }
@@ -299,12 +316,12 @@ fn find(
         .filter(|c| c.is_telling(&samples))
         .cloned()
         .collect();
-    let turn = symmetries
-        .iter()
-        .find(|s| turned && s.class == Class::Proper);
-    let groups = match turn {
-        Some(turn) => vec![turns::group(turn, &symmetries)],
-        None => arrange::arrange(&surroundings, &symmetries),
+    let turns = symmetries[first..].iter().zip(&lines);
+    let groups = match lines.is_empty() {
+        true => arrange::arrange(&surroundings, &symmetries),
+        false => turns
+            .map(|(turn, line)| turns::group(turn, line.as_ref(), &symmetries))
+            .collect(),
     };
     Ok(Detection {
         samples,

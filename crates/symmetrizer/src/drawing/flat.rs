@@ -79,6 +79,12 @@ impl Flat {
         &self.document
     }
 
+    /// Where its vertices are, levelled.
+    pub fn vertices(&self) -> Vec<Point> {
+        let all: Vec<u32> = (0..self.document.mesh.positions.len() as u32).collect();
+        self.levelled(&all)
+    }
+
     /// The mesh with its vertices moved in their plane.
     ///
     /// # Errors

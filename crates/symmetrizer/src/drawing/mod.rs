@@ -133,6 +133,24 @@ impl Drawing {
         }
     }
 
+    /// Where the vertices of a drawing that came from a flat mesh are, drawing coordinates.
+    pub fn vertices(&self) -> Option<Vec<Point>> {
+        match &self.kept {
+            Kept::Flat(flat) => Some(flat.vertices()),
+            _ => None,
+        }
+    }
+
+    /// Whether its file has paths, painted one after the other.
+    pub fn has_paths(&self) -> bool {
+        matches!(self.kept, Kept::Svg(_))
+    }
+
+    /// Whether y runs downwards in its file, and upwards here.
+    pub fn is_upside_down(&self) -> bool {
+        matches!(self.kept, Kept::Svg(_) | Kept::Bitmap(_))
+    }
+
     /// The region, in drawing coordinates.
     pub fn outline(&self) -> &Outline {
         &self.outline

@@ -52,6 +52,9 @@ pub struct SymmetryField {
 /// one to the next: these slip where limbs are thin.
 const IN_ORDER: f64 = 1.1;
 
+/// Pairs around an outline of so much worth are not to be outdone.
+const ENOUGH: f64 = 0.7;
+
 /// The field that detection's `mirrors` grow into on `land`: of several starts the one that covers most.
 ///
 /// # Errors
@@ -62,6 +65,19 @@ pub fn find(
     ctx: &Context<'_>,
 ) -> Result<SymmetryField> {
     let cancel = ctx.token();
+    // In the plane nearly all starts cover nearly all.
+    let worth = |field: &SymmetryField| match land.wall {
+        Some(_) => field.cover() * trust::likeness(land, field),
+        None => field.cover(),
+    };
+    let around = land.wall.map(|wall| {
+        let around = around::Around::of(wall, land.samples);
+        grow::fill(land, around.partners, cancel)
+    });
+    if let Some(filled) = around.as_ref().filter(|filled| worth(filled) >= ENOUGH) {
+        ctx.check()?;
+        return Ok(filled.clone());
+    }
     let claims = seeds::CLAIMS.iter();
     let starts: Vec<_> = claims
         .map(|&claim| seeds::seeds(land, mirrors, claim))
@@ -71,15 +87,8 @@ pub fn find(
         .map(|seeds| grow(land, seeds, cancel))
         .collect();
     ctx.check()?;
-    // In the plane nearly all starts cover nearly all.
-    let worth = |field: &SymmetryField| match land.wall {
-        Some(_) => field.cover() * trust::Trust::of(land, field).likeness(),
-        None => field.cover(),
-    };
     let mut worths: Vec<f64> = grown.iter().map(worth).collect();
-    if let Some(wall) = land.wall {
-        let around = around::Around::of(wall, land.samples);
-        let filled = grow::fill(land, around.partners, cancel);
+    if let Some(filled) = around {
         worths.push(IN_ORDER * worth(&filled));
         grown.push(filled);
     }

@@ -82,7 +82,7 @@ impl Trust {
     /// Of `field`.
     pub fn of(land: &Land<'_>, field: &SymmetryField) -> Self {
         let gaps = gaps(land, field);
-        let relief = median(&mut drawn(&land.samples.list)).unwrap_or_default();
+        let relief = relief(land);
         let count = land.samples.list.len();
         let away: Vec<Option<f64>> = field
             .partners
@@ -101,11 +101,9 @@ impl Trust {
                 paired && alike && fits && isometric
             })
             .collect();
-        let mut all: Vec<f64> = gaps.iter().flatten().copied().collect();
-        let gap = median(&mut all).unwrap_or(f64::INFINITY);
         Self {
             share: trusted.iter().filter(|t| **t).count() as f64 / count.max(1) as f64,
-            gap: gap / relief.max(f64::MIN_POSITIVE),
+            gap: gap(&gaps, relief),
             relief,
             trusted,
             rival: land.wall.map(|wall| Around::of(wall, land.samples).rival),
@@ -137,7 +135,7 @@ impl Trust {
 
     /// How alike partners look: 1 entirely, 0 no more than any two samples.
     pub fn likeness(&self) -> f64 {
-        (1.0 - self.gap).max(0.0)
+        alike(self.gap)
     }
 
     /// Trusted share times likeness, 0 to 1.
@@ -161,6 +159,27 @@ impl Trust {
             () => Verdict::Uncertain,
         }
     }
+}
+
+/// [`Trust::likeness`] of a `field`, without the rest.
+pub fn likeness(land: &Land<'_>, field: &SymmetryField) -> f64 {
+    alike(gap(&gaps(land, field), relief(land)))
+}
+
+/// How alike partners look, by how unlike they do beside any two samples.
+fn alike(gap: f64) -> f64 {
+    (1.0 - gap).max(0.0)
+}
+
+/// The median gap of partners beside that of any two samples.
+fn gap(gaps: &[Option<f64>], relief: f64) -> f64 {
+    let mut all: Vec<f64> = gaps.iter().flatten().copied().collect();
+    median(&mut all).unwrap_or(f64::INFINITY) / relief.max(f64::MIN_POSITIVE)
+}
+
+/// The median gap of any two samples.
+fn relief(land: &Land<'_>) -> f64 {
+    median(&mut drawn(&land.samples.list)).unwrap_or_default()
 }
 
 /// Which samples belong to the largest connected piece where `share` is not 0.

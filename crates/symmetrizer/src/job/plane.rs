@@ -2,11 +2,13 @@
 
 use crate::apply::measure::asymmetry_of_outline;
 use crate::context::Context;
-use crate::deform::{Igarashi, Stiffness, carry};
+use crate::deform::Stiffness;
 use crate::detect::{DetectParams, Want, Wanted};
 use crate::drawing::{Drawing, Outline, Turns};
 use crate::error::{Error, Result};
-use crate::geom::{Matrix3, Point, Vector};
+use crate::geom::Point;
+use crate::job::firm::per_face;
+use crate::job::follow::Follow;
 use crate::job::{Detected, Measured, Symmetrized, made};
 use crate::optimize::orbit::{Goal, Orbit};
 use crate::optimize::outcome::mirrors;
@@ -14,9 +16,9 @@ use crate::optimize::plan::goals;
 use crate::optimize::schedule::Settings;
 use crate::optimize::{Outcome, Step};
 use crate::params::Params;
+use crate::shape::Mesh;
 use crate::shape::wall::Wall;
-use crate::shape::working::{Normalization, Working};
-use crate::shape::{ClosestPoint, Mesh, Surface};
+use crate::shape::working::Working;
 use crate::straighten::When;
 use crate::transform::{Class, Isometry};
 
@@ -33,13 +35,17 @@ impl Drawn {
     /// a written file; see [`Drawing::exact`] and [`Drawing::exact_under`].
     ///
     /// # Errors
-    /// [`Error::Input`] where no symmetry was found, and those of the drawing.
+    /// [`Error::Input`] where no symmetry of the whole was found, and those of the drawing.
     pub fn exact(&self) -> Result<Drawing> {
         let Some(after) = &self.job.after else {
             let what = "there is no symmetry that the drawing could have exactly";
             return Err(Error::input(what, "write it without --exact"));
         };
         let normalization = after.working.normalization;
+        if self.job.goals.iter().any(|g| !g.is_of_the_whole()) {
+            let what = "what is symmetric is only a part of the drawing";
+            return Err(Error::input(what, "write it without --exact"));
+        }
         if let Some(turns) = self.job.goals.first().and_then(turns) {
             return self.drawing.exact_under(&Turns {
                 center: normalization.to_document(&turns.center),
@@ -88,26 +94,36 @@ pub(super) fn mirrored(found: &Detected) -> bool {
 /// share of the diagonal of the lines between the others.
 const POINTS: usize = 1500;
 const FINEST: f64 = 1e-5;
+/// Beyond this share detail is lost: of outlines in more parts than these the longest stand for all.
+const COARSEST: f64 = 2e-3;
+const PARTS: usize = 200;
 
-/// A drawing is to lose this share of its asymmetry at the least, and no more than this share of its edges may cross
-/// others, or it is left.
+/// A drawing is to lose this share of its asymmetry at the least, or it is left.
 const BETTER: f64 = 0.5;
-const CROSSED: f64 = 0.006;
 /// Asymmetry, % of D, that may come and go.
 const FLOOR: f64 = 0.01;
 
-/// Takes a drawing's result back where it is hardly more symmetric than the input, or tangled.
+/// Takes a drawing's result back where it is hardly more symmetric than the input, or crosses itself where the input
+/// does not; says so where it was asked for.
 pub(super) fn give_up_on_worse(job: &mut Symmetrized, ctx: &mut Context<'_>) {
     let (Some(wall), Some(result)) = (&job.before.wall, &job.report.result) else {
         return;
     };
     let before = job.report.input.shape.mean_asymmetry();
     let worse = result.asymmetry.mean > BETTER * before + FLOOR;
-    let crossed = result.distortion.new_crossings as f64 / wall.edges() as f64 > CROSSED;
-    if (worse || crossed) && !asked_for(job) {
+    let crossed = result.distortion.new_crossings;
+    if asked_for(job) {
+        if crossed > 0 {
+            ctx.warn(format!(
+                "the drawing crosses itself: {crossed} edges of its outline do that did not"
+            ));
+        }
+        return;
+    }
+    if worse || crossed > 0 {
         ctx.warn(format!(
             "the drawing is left as it is: made symmetric, {} ({:.2} % of D from symmetric, was {before:.2})",
-            if crossed { "it would cross itself" } else { "it would hardly be more so" },
+            if crossed > 0 { "it would cross itself" } else { "it would hardly be more so" },
             result.asymmetry.mean
         ));
         let shape = corners(wall);
@@ -156,15 +172,34 @@ pub(super) fn sought(params: &Params) -> DetectParams {
     }
 }
 
-/// The group of a drawing that has turns, one with more than them where it has lines, too.
-pub(super) fn group(found: &Detected, settings: Settings<'_>) -> Option<Goal> {
-    found.wall.as_ref()?;
-    let turn = found
-        .symmetries()
-        .iter()
-        .find(|s| s.class == Class::Proper)?;
-    let goals = goals(&found.detection, settings.optimize);
-    goals.into_iter().find(|g| g.symmetries.contains(&turn.id))
+/// Turns of rings that hold for this share of an outline come before a line that holds for little more: so much of what
+/// it holds for.
+const TURNED: f64 = 0.4;
+const NO_LESS: f64 = 0.8;
+
+/// Whether the groups of turns `goals` come before the lines of a drawing, which rings with turns have, too.
+pub(super) fn turns_first(found: &Detected, goals: &[Goal]) -> bool {
+    let share: f64 = goals.iter().map(|g| g.area_fraction).sum();
+    let lines = mirrors(&found.detection).map(|s| s.area_fraction);
+    let widest = lines.fold(0.0, f64::max);
+    let whole = goals.iter().any(Goal::is_of_the_whole);
+    whole || share >= TURNED && share >= NO_LESS * widest
+}
+
+/// The groups of a drawing that has turns, of each ring's or of the whole; with more than turns where there are lines,
+/// too.
+pub(super) fn groups(found: &Detected, settings: Settings<'_>) -> Vec<Goal> {
+    if found.wall.is_none() {
+        return Vec::new();
+    }
+    let all = found.symmetries().iter();
+    let turns: Vec<u32> = all
+        .filter(|s| s.class == Class::Proper)
+        .map(|s| s.id)
+        .collect();
+    let mut goals = goals(&found.detection, settings.optimize);
+    goals.retain(|g| g.symmetries.iter().any(|id| turns.contains(id)));
+    goals
 }
 
 /// Finds the symmetries of a drawing's outline.
@@ -178,7 +213,9 @@ pub fn detect_drawing(
 ) -> Result<(Mesh, Detected)> {
     params.check()?;
     warn_of(drawing, ctx);
-    find(drawing.outline(), &params.detect(), ctx)
+    let (mesh, wall) = walled(drawing.outline())?;
+    let found = found(drawing.outline(), wall, &params.detect(), ctx)?;
+    Ok((mesh, found))
 }
 
 /// Makes a drawing symmetric, as [`crate::symmetrize`] does a mesh.
@@ -190,7 +227,20 @@ pub fn symmetrize_drawing(
     params: &Params,
     ctx: &mut Context<'_>,
 ) -> Result<Drawn> {
-    work(drawing, params, false, ctx)
+    symmetrize_drawing_with(drawing, &Stiffness::default(), params, ctx)
+}
+
+/// [`symmetrize_drawing`] with a `stiffness` that is not the same everywhere.
+///
+/// # Errors
+/// Those of [`symmetrize_drawing`]; [`Error::Params`] for a stiffness that does not fit the drawing.
+pub fn symmetrize_drawing_with(
+    drawing: &Drawing,
+    stiffness: &Stiffness,
+    params: &Params,
+    ctx: &mut Context<'_>,
+) -> Result<Drawn> {
+    work(drawing, stiffness, (params, false), ctx)
 }
 
 /// Undoes the bend of a drawing and does nothing else, as [`crate::unbend`] does of a mesh.
@@ -201,15 +251,22 @@ pub fn unbend_drawing(drawing: &Drawing, params: &Params, ctx: &mut Context<'_>)
     let mut params = params.clone();
     params.optimize.final_steps = 0;
     params.optimize.finish_rounds = 0;
-    work(drawing, &params, true, ctx)
+    work(drawing, &Stiffness::default(), (&params, true), ctx)
 }
 
-fn work(drawing: &Drawing, params: &Params, only: bool, ctx: &mut Context<'_>) -> Result<Drawn> {
+fn work(
+    drawing: &Drawing,
+    stiffness: &Stiffness,
+    (params, only): (&Params, bool),
+    ctx: &mut Context<'_>,
+) -> Result<Drawn> {
     params.check()?;
     warn_of(drawing, ctx);
     let detect = sought(params);
-    let (mesh, before) = find(drawing.outline(), &detect, ctx)?;
-    let job = made(&mesh, before, &Stiffness::default(), params, only, ctx)?;
+    let (mesh, wall) = walled(drawing.outline())?;
+    let stiffness = per_face(stiffness, drawing, &wall)?;
+    let before = found(drawing.outline(), wall, &detect, ctx)?;
+    let job = made(&mesh, before, stiffness, params, only, ctx)?;
     let drawing = match (&job.before.wall, &job.after) {
         (Some(wall), Some(after)) => ctx.stage("redraw", |_| {
             let follow = Follow::new(wall, &after.working.surface.positions)?;
@@ -232,14 +289,37 @@ fn few(outline: &Outline) -> Vec<Vec<Point>> {
     if outline.len() <= POINTS {
         return outline.rings.iter().map(|r| r.points.clone()).collect();
     }
-    let mut tolerance = FINEST * outline.diagonal();
+    let mut share = FINEST;
     loop {
-        let rings = outline.simplified(tolerance);
+        let rings = outline.simplified(share * outline.diagonal());
         if rings.iter().map(Vec::len).sum::<usize>() <= POINTS {
             return rings;
         }
-        tolerance *= 2.0;
+        if share > COARSEST && rings.len() > PARTS {
+            return longest(rings);
+        }
+        share *= 2.0;
     }
+}
+
+/// The longest rings of thousands, with no more points than the work needs, one at the least.
+fn longest(rings: Vec<Vec<Point>>) -> Vec<Vec<Point>> {
+    let length = |ring: &Vec<Point>| {
+        let next = ring.iter().cycle().skip(1);
+        ring.iter().zip(next).map(|(a, b)| (b - a).norm()).sum()
+    };
+    let lengths: Vec<f64> = rings.iter().map(length).collect();
+    let mut order: Vec<usize> = (0..rings.len()).collect();
+    order.sort_by(|&a, &b| lengths[b].total_cmp(&lengths[a]));
+    let mut points = 0;
+    let within = |&r: &usize| {
+        points += rings[r].len();
+        points <= POINTS
+    };
+    let count = order.iter().copied().take_while(within).count().max(1);
+    order.truncate(count);
+    order.sort_unstable();
+    order.into_iter().map(|r| rings[r].clone()).collect()
 }
 
 /// The mesh of an outline's corners and the wall over it.
@@ -263,19 +343,18 @@ fn corners(wall: &Wall) -> Mesh {
     }
 }
 
-/// The symmetries of an outline, and the mesh of its corners.
-fn find(
+/// The symmetries of an outline, over which `wall` stands.
+fn found(
     outline: &Outline,
+    wall: Wall,
     params: &DetectParams,
     ctx: &mut Context<'_>,
-) -> Result<(Mesh, Detected)> {
-    let (mesh, wall) = walled(outline)?;
+) -> Result<Detected> {
     let diagonal = outline.diagonal();
     let working = Working::of_wall(&wall);
-    let found = ctx.stage("detect", |ctx| {
+    ctx.stage("detect", |ctx| {
         Detected::find((working, Some(wall)), diagonal, params, ctx)
-    })?;
-    Ok((mesh, found))
+    })
 }
 
 /// Measures how far a drawing's outline is from symmetric.
@@ -297,49 +376,4 @@ pub fn measure_drawing(drawing: &Drawing, ctx: &mut Context<'_>) -> Result<(Mesh
         distortion: None,
     };
     Ok((mesh, measured))
-}
-
-/// Where all of the plane goes with an outline: with the triangles inside; around it, with the nearest place on it.
-struct Follow {
-    normalization: Normalization,
-    rest: Surface,
-    closest: ClosestPoint,
-    /// Where the vertices of the inside go, and how their surroundings turn.
-    places: Vec<Point>,
-    rotations: Vec<Matrix3>,
-}
-
-impl Follow {
-    /// With `wall`, whose vertices go to `positions`.
-    fn new(wall: &Wall, positions: &[Point]) -> Result<Self> {
-        let body = Igarashi::new(wall.clone())?;
-        let places = body.filled(positions)?;
-        let rest = body.sheet().surface.clone();
-        let moved = rest.with_positions(places.clone());
-        let motions = carry::motions(&rest, &moved);
-        Ok(Self {
-            normalization: wall.normalization,
-            closest: ClosestPoint::new(&rest),
-            rotations: motions.iter().map(|m| m.rotation).collect(),
-            places,
-            rest,
-        })
-    }
-
-    /// Where a place of the drawing goes: each corner of the triangle there, or nearest to it, takes it along as it
-    /// turns itself.
-    fn place(&self, x: &Point) -> Point {
-        let x = self.normalization.to_working(x);
-        let Some(hit) = self.closest.nearest(&x, f64::INFINITY) else {
-            return x;
-        };
-        let corners = self.rest.triangles[hit.at.face as usize];
-        let carried = corners.iter().zip(hit.at.bary).map(|(&v, b)| {
-            let v = v as usize;
-            b * (self.places[v].coords + self.rotations[v] * (x - self.rest.positions[v]))
-        });
-        let moved = Point::from(carried.sum::<Vector>());
-        let moved = self.normalization.to_document(&moved);
-        Point::new(moved.x, moved.y, 0.0)
-    }
 }

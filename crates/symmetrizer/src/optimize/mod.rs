@@ -17,6 +17,7 @@ mod rounds;
 pub mod schedule;
 pub mod tangles;
 mod tidy;
+mod uncross;
 pub mod untangle;
 
 pub use mend::mend;

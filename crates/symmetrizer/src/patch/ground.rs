@@ -32,7 +32,8 @@ pub fn touch(
         .collect()
 }
 
-pub(super) fn touch_one(
+/// The same of one sample.
+pub fn touch_one(
     ground: &Ground<'_>,
     t: &Isometry,
     sample: u32,

@@ -32,6 +32,7 @@ pub fn faces_of(pairs: &[[u32; 2]]) -> Vec<u32> {
 }
 
 /// Finds crossings in one state after another of the same triangles.
+#[derive(Clone)]
 pub struct Crossings {
     tree: Bvh,
 }

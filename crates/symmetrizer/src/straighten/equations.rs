@@ -10,8 +10,9 @@ use crate::geom::{Vector, skew};
 /// What is added to the diagonal for a turn, L^2, and for a way: what nothing holds stays.
 const RIDGE: [f64; 2] = [1e-9, 1e-6];
 
-/// The same for what would lead out of the plane.
-const HELD: f64 = 1e9;
+/// What of a twist there is in space, and what of it does not lead out of the plane: the turn about z and two ways.
+const ALL: [usize; 6] = [0, 1, 2, 3, 4, 5];
+const FLAT: [usize; 3] = [2, 3, 4];
 
 /// Sums of squares that are linear in the twists.
 pub struct Equations {
@@ -106,17 +107,25 @@ impl Equations {
     /// # Errors
     /// [`SolveError`].
     pub fn solve(self) -> Result<Vec<Twist>, SolveError> {
-        let (starts, rows, values) = self.columns();
+        let moves: &[usize] = if self.flat { &FLAT } else { &ALL };
+        let (starts, rows, values) = self.columns(moves);
         let mut cholesky = Cholesky::new(starts, rows)?;
         cholesky.factorize(&values)?;
-        let mut x: Vec<f64> = self.right.iter().flat_map(|t| t.data.0[0]).collect();
+        let right = self.right.iter();
+        let mut x: Vec<f64> = right.flat_map(|t| moves.iter().map(|&c| t[c])).collect();
         cholesky.solve(&values, &mut x)?;
-        Ok(x.chunks_exact(6).map(Twist::from_column_slice).collect())
+        let twist = |x: &[f64]| {
+            let mut twist = Twist::zeros();
+            moves.iter().zip(x).for_each(|(&c, x)| twist[c] = *x);
+            twist
+        };
+        Ok(x.chunks_exact(moves.len()).map(twist).collect())
     }
 
-    /// The lower triangle in compressed columns: starts, rows, values.
-    fn columns(&self) -> (Vec<usize>, Vec<usize>, Vec<f64>) {
+    /// The lower triangle in compressed columns, of each twist only what `moves`: starts, rows, values.
+    fn columns(&self, moves: &[usize]) -> (Vec<usize>, Vec<usize>, Vec<f64>) {
         let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
+        let size = moves.len();
         for j in 0..self.right.len() {
             let below: Vec<(usize, &Matrix6<f64>)> = self
                 .blocks
@@ -125,20 +134,15 @@ impl Equations {
                 .filter(|(i, _)| *i > j)
                 .collect();
             let own = self.blocks.get(&(j as u32, j as u32));
-            for c in 0..6 {
-                for r in c..6 {
-                    let held = self.flat && [0, 1, 5].contains(&c);
-                    let ridge = match (r == c, held) {
-                        (false, _) => 0.0,
-                        (true, false) => RIDGE[c / 3],
-                        (true, true) => HELD,
-                    };
-                    rows.push(6 * j + r);
+            for (k, &c) in moves.iter().enumerate() {
+                for (l, &r) in moves.iter().enumerate().skip(k) {
+                    let ridge = if r == c { RIDGE[c / 3] } else { 0.0 };
+                    rows.push(size * j + l);
                     values.push(own.map_or(0.0, |b| b[(r, c)]) + ridge);
                 }
                 for (i, block) in &below {
-                    rows.extend(6 * i..6 * i + 6);
-                    values.extend(block.column(c).iter());
+                    rows.extend(size * i..size * (i + 1));
+                    values.extend(moves.iter().map(|&r| block[(r, c)]));
                 }
                 starts.push(rows.len());
             }
@@ -180,6 +184,24 @@ mod tests {
         for (a, b) in same.iter().zip(&found) {
             assert!((a - b).norm() < 1e-9, "{a} {b}");
         }
+    }
+
+    #[test]
+    fn nothing_leads_out_of_the_plane() {
+        let mut equations = Equations::new(2, true);
+        let mut spring = Spring::default();
+        spring.add([Vector::y(), Vector::x()], Vector::new(1.0, 2.0, 3.0), 1.0);
+        equations.add_spring([0, 1], &spring);
+        let found = equations.solve().expect("positive definite");
+        for twist in &found {
+            assert_eq!([twist[0], twist[1], twist[5]], [0.0; 3]);
+        }
+        let reached = |k: usize, arm: &Vector| {
+            let (omega, v) = (found[k].fixed_rows::<3>(0), found[k].fixed_rows::<3>(3));
+            v + omega.cross(arm)
+        };
+        let gap = reached(0, &Vector::y()) - reached(1, &Vector::x());
+        assert!((gap + Vector::new(1.0, 2.0, 0.0)).norm() < 1e-5, "{gap}");
     }
 
     #[test]

@@ -2,11 +2,11 @@
 
 use crate::geom::Point;
 
-/// Which points of a closed ring stay, so that none lies further than `tolerance` from what is left: in order, two at
-/// least where it has as many.
+/// Which points of a closed ring stay, so that none lies further than `tolerance` from what is left: in order, two of a
+/// ring that is no wider.
 pub(super) fn kept(ring: &[Point], tolerance: f64) -> Vec<Point> {
     let count = ring.len();
-    if count < 4 {
+    if count < 3 {
         return ring.to_vec();
     }
     // Opened at its first point and at the one furthest from it, which stay.
@@ -55,6 +55,8 @@ mod tests {
         let ring: Vec<Point> = (0..400).map(place).collect();
         assert_eq!(kept(&ring, 1e-9).len(), 4);
         assert_eq!(kept(&ring, 0.0).len(), 4);
-        assert_eq!(kept(&ring[..3], 1.0).len(), 3);
+        let corners = [ring[0], ring[100], ring[200]];
+        assert_eq!(kept(&corners, 0.7).len(), 3);
+        assert_eq!(kept(&corners, 0.8).len(), 2);
     }
 }
