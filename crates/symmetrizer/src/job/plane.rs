@@ -172,18 +172,17 @@ pub(super) fn sought(params: &Params) -> DetectParams {
     }
 }
 
-/// Turns of rings that hold for this share of an outline come before a line that holds for little more: so much of what
-/// it holds for.
+/// Turns of rings that hold for this share of an outline come first where no line holds for as much of it as this: the
+/// lines of the rings hold for them and for a little of the rest.
 const TURNED: f64 = 0.4;
-const NO_LESS: f64 = 0.8;
+const LINED: f64 = 0.9;
 
-/// Whether the groups of turns `goals` come before the lines of a drawing, which rings with turns have, too.
+/// Whether the groups of turns `goals` come before the lines of a drawing.
 pub(super) fn turns_first(found: &Detected, goals: &[Goal]) -> bool {
     let share: f64 = goals.iter().map(|g| g.area_fraction).sum();
-    let lines = mirrors(&found.detection).map(|s| s.area_fraction);
-    let widest = lines.fold(0.0, f64::max);
+    let lined = mirrors(&found.detection).any(|s| s.area_fraction >= LINED);
     let whole = goals.iter().any(Goal::is_of_the_whole);
-    whole || share >= TURNED && share >= NO_LESS * widest
+    whole || share >= TURNED && !lined
 }
 
 /// The groups of a drawing that has turns, of each ring's or of the whole; with more than turns where there are lines,
