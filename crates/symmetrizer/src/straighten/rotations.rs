@@ -16,9 +16,9 @@ use crate::straighten::angles;
 
 /// W, beside [`EDGES`] for all edges of a sample.
 pub(super) const PAIRS: f64 = 3.0;
-/// Edges of a sample: evenness over some seven samples' distance. The poses of limbs, which both sides have in common,
+/// Edges of a sample: evenness over some three samples' distance. The poses of limbs, which both sides have in common,
 /// follow from nothing else; a local isometry is only as good as its few pairs.
-const EDGES: f64 = 128.0;
+const EDGES: f64 = 32.0;
 /// The same in the plane, where the joints of limbs are to turn.
 const EDGES_IN_PLANE: f64 = 8.0;
 /// Mass of a sample without a partner: it follows.
