@@ -1,5 +1,6 @@
 //! How well bent shapes are straightened whose rest is known.
 
+mod bends;
 mod time;
 
 use std::time::Instant;
@@ -13,7 +14,7 @@ use symmetrizer::sample::Samples;
 use symmetrizer::shape::working::Working;
 use symmetrizer::shape::{ClosestPoint, io};
 use symmetrizer::straighten::{Bend, straighten};
-use symmetrizer::{Context, Params, Result};
+use symmetrizer::{Context, Mesh, Params, Result};
 
 use crate::tables::{Table, number};
 use crate::{Answer, data, terminal};
@@ -24,6 +25,9 @@ pub struct Args {
     /// Shapes with this in their name only
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
+    /// Shapes that are bent here, instead of those of the test data
+    #[arg(long)]
+    bends: bool,
     /// Where to write the straightened shapes
     #[arg(long, value_name = "FOLDER")]
     write: Option<std::path::PathBuf>,
@@ -51,6 +55,10 @@ struct Truth {
 /// # Errors
 /// Test data that is missing or damaged; those of the stages.
 pub fn run(args: &Args) -> Result<Answer> {
+    if args.bends {
+        terminal::answer(&bends::table(args.only.as_ref())?.to_string());
+        return Ok(Answer::Done);
+    }
     let mut table = Table::new([
         "shape",
         "score",
@@ -81,17 +89,35 @@ pub fn run(args: &Args) -> Result<Answer> {
     Ok(Answer::Done)
 }
 
-fn one(name: &str, args: &Args) -> Result<[String; 11]> {
-    let folder = data::root()?.join("truth");
-    let truth: Truth = data::json(&folder.join(format!("{name}.truth.json")))?;
-    let mut document = io::read(&folder.join(&truth.file))?;
-    let working = Working::new(&document.mesh)?;
+/// What is found on a mesh.
+struct Looked {
+    working: Working,
+    samples: Samples,
+    bend: Option<Bend>,
+    field: SymmetryField,
+    /// Of the straightened working surface.
+    straight: Vec<Point>,
+    /// Of detection, looking for the bend and straightening.
+    seconds: [f64; 3],
+}
+
+impl Looked {
+    /// Straightened, for each vertex of the file.
+    fn positions(&self) -> Vec<Point> {
+        let vertices = self.working.vertex_of_document.iter();
+        let at = |v: &Option<u32>| v.map_or(Point::origin(), |v| self.straight[v as usize]);
+        vertices.map(at).collect()
+    }
+}
+
+fn look(mesh: &Mesh) -> Result<Looked> {
+    let working = Working::new(mesh)?;
     let mut ctx = Context::new(0);
     let mut clock = Instant::now();
     let mut lap = || {
         let s = clock.elapsed().as_secs_f64();
         clock = Instant::now();
-        number(Some(s), 2)
+        s
     };
     let params = Params::default().detect().mirrors_only();
     let found = detect(&working.surface, &params, &mut ctx)?;
@@ -102,44 +128,58 @@ fn one(name: &str, args: &Args) -> Result<[String; 11]> {
     let mirrors: Vec<_> = found.symmetries.iter().map(|s| s.q_from_p).collect();
     let bend = Bend::find(&land, &mirrors, &mut ctx)?;
     let looked = lap();
-    let (field, positions) = match &bend {
+    let (field, straight) = match &bend {
         Some(bend) => (bend.settled.clone(), straighten(&land, bend)?.positions),
         None => (
             find(&land, &mirrors, &ctx)?,
             working.surface.positions.clone(),
         ),
     };
-    let straightened = lap();
+    let seconds = [detected, looked, lap()];
+    drop(land);
+    Ok(Looked {
+        samples: found.samples,
+        working,
+        bend,
+        field,
+        straight,
+        seconds,
+    })
+}
+
+fn one(name: &str, args: &Args) -> Result<[String; 11]> {
+    let folder = data::root()?.join("truth");
+    let truth: Truth = data::json(&folder.join(format!("{name}.truth.json")))?;
+    let mut document = io::read(&folder.join(&truth.file))?;
+    let looked = look(&document.mesh)?;
     let right = truth
         .partner
-        .map(|partner| right(&partner, &working, &found.samples, &field));
+        .map(|partner| right(&partner, &looked.working, &looked.samples, &looked.field));
     let rest: Option<Vec<Point>> = truth
         .rest
         .map(|r| r.iter().map(|x| Point::from(*x)).collect());
     let rms = |x: &[Point]| rest.as_ref().map(|rest| similar(x, rest));
     let before = rms(&document.mesh.positions);
-    let moved: Vec<Point> = working
-        .vertex_of_document
-        .iter()
-        .map(|v| v.map_or(Point::origin(), |v| positions[v as usize]))
-        .collect();
+    let moved = looked.positions();
     let after = rms(&moved);
     if let Some(folder) = &args.write {
         document.mesh.positions = moved;
         std::fs::create_dir_all(folder).map_err(|e| symmetrizer::Error::io(folder, e))?;
         io::write(&document, &folder.join(&truth.file))?;
     }
+    let [detected, sought, straightened] = looked.seconds.map(|s| number(Some(s), 2));
+    let bend = looked.bend.as_ref();
     Ok([
         name.into(),
-        number(bend.as_ref().map(|b| b.trust.score()), 2),
-        number(bend.as_ref().map(|b| b.degrees), 0),
-        number(Some(field.cover()), 3),
+        number(bend.map(|b| b.trust.score()), 2),
+        number(bend.map(|b| b.degrees), 0),
+        number(Some(looked.field.cover()), 3),
         number(right.map(|r| r[0]), 3),
         number(right.map(|r| r[1]), 3),
         number(before, 3),
         number(after, 3),
         detected,
-        looked,
+        sought,
         straightened,
     ])
 }

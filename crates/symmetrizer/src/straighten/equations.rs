@@ -1,7 +1,5 @@
 //! Normal equations over the twists of many rigid motions.
 
-use std::collections::BTreeMap;
-
 use nalgebra::{Matrix3x6, Matrix6};
 
 use crate::deform::solver::{Cholesky, SolveError, Twist};
@@ -16,8 +14,8 @@ const FLAT: [usize; 3] = [2, 3, 4];
 
 /// Sums of squares that are linear in the twists.
 pub struct Equations {
-    /// Lower blocks: column, row.
-    blocks: BTreeMap<(u32, u32), Matrix6<f64>>,
+    /// Lower blocks: for each column its rows, in the order in which they came.
+    blocks: Vec<Vec<(u32, Matrix6<f64>)>>,
     right: Vec<Twist>,
     /// Whether the motions stay in the plane.
     flat: bool,
@@ -68,7 +66,7 @@ impl Equations {
     pub fn new(count: usize, flat: bool) -> Self {
         Self {
             flat,
-            blocks: BTreeMap::new(),
+            blocks: vec![Vec::new(); count],
             right: vec![Twist::zeros(); count],
         }
     }
@@ -86,18 +84,28 @@ impl Equations {
     /// Adds a spring between the motions i < j.
     pub fn add_spring(&mut self, [i, j]: [u32; 2], spring: &Spring) {
         for (at, block) in [(i, i), (j, j), (i, j)].into_iter().zip(&spring.blocks) {
-            *self.blocks.entry(at).or_insert_with(Matrix6::zeros) += block;
+            *self.block(at) += block;
         }
         self.right[i as usize] += spring.right[0];
         self.right[j as usize] += spring.right[1];
+    }
+
+    /// The block of this column and row. Columns have some ten.
+    fn block(&mut self, (column, row): (u32, u32)) -> &mut Matrix6<f64> {
+        let column = &mut self.blocks[column as usize];
+        let at = column.iter().position(|b| b.0 == row);
+        let at = at.unwrap_or_else(|| {
+            column.push((row, Matrix6::zeros()));
+            column.len() - 1
+        });
+        &mut column[at].1
     }
 
     fn add_terms(&mut self, terms: &[(u32, Twist)], miss: f64, weight: f64) {
         for (i, row) in terms {
             self.right[*i as usize] -= weight * miss * row;
             for (j, other) in terms.iter().filter(|(j, _)| j <= i) {
-                let block = self.blocks.entry((*j, *i)).or_insert_with(Matrix6::zeros);
-                *block += weight * row * other.transpose();
+                *self.block((*j, *i)) += weight * row * other.transpose();
             }
         }
     }
@@ -106,10 +114,17 @@ impl Equations {
     ///
     /// # Errors
     /// [`SolveError`].
-    pub fn solve(self) -> Result<Vec<Twist>, SolveError> {
+    pub fn solve(mut self) -> Result<Vec<Twist>, SolveError> {
+        for (j, column) in (0..).zip(&mut self.blocks) {
+            if !column.iter().any(|b| b.0 == j) {
+                column.push((j, Matrix6::zeros()));
+            }
+            // The diagonal is the first: all others lie below it.
+            column.sort_unstable_by_key(|b| b.0);
+        }
         let moves: &[usize] = if self.flat { &FLAT } else { &ALL };
         let (starts, rows, values) = self.columns(moves);
-        let mut cholesky = Cholesky::new(starts, rows)?;
+        let mut cholesky = Cholesky::of_blocks(&self.pattern(), moves.len(), (starts, rows))?;
         cholesky.factorize(&values)?;
         let right = self.right.iter();
         let mut x: Vec<f64> = right.flat_map(|t| moves.iter().map(|&c| t[c])).collect();
@@ -122,25 +137,26 @@ impl Equations {
         Ok(x.chunks_exact(moves.len()).map(twist).collect())
     }
 
+    /// The rows of each column's blocks.
+    fn pattern(&self) -> Vec<Vec<usize>> {
+        let rows = |column: &Vec<(u32, _)>| column.iter().map(|b| b.0 as usize).collect();
+        self.blocks.iter().map(rows).collect()
+    }
+
     /// The lower triangle in compressed columns, of each twist only what `moves`: starts, rows, values.
     fn columns(&self, moves: &[usize]) -> (Vec<usize>, Vec<usize>, Vec<f64>) {
         let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
         let size = moves.len();
-        for j in 0..self.right.len() {
-            let below: Vec<(usize, &Matrix6<f64>)> = self
-                .blocks
-                .range((j as u32, 0)..(j as u32 + 1, 0))
-                .map(|((_, i), block)| (*i as usize, block))
-                .filter(|(i, _)| *i > j)
-                .collect();
-            let own = self.blocks.get(&(j as u32, j as u32));
+        for (j, column) in self.blocks.iter().enumerate() {
+            let own = &column[0].1;
             for (k, &c) in moves.iter().enumerate() {
                 for (l, &r) in moves.iter().enumerate().skip(k) {
                     let ridge = if r == c { RIDGE[c / 3] } else { 0.0 };
                     rows.push(size * j + l);
-                    values.push(own.map_or(0.0, |b| b[(r, c)]) + ridge);
+                    values.push(own[(r, c)] + ridge);
                 }
-                for (i, block) in &below {
+                for (i, block) in &column[1..] {
+                    let i = *i as usize;
                     rows.extend(size * i..size * (i + 1));
                     values.extend(moves.iter().map(|&r| block[(r, c)]));
                 }

@@ -14,9 +14,13 @@ use crate::field::{Partner, SymmetryField};
 use crate::geom::{Ambient, Matrix3, Vector, nearest_orthogonal};
 use crate::straighten::angles;
 
-/// W, beside this much for all edges of a sample.
+/// W, beside [`EDGES`] for all edges of a sample.
 pub(super) const PAIRS: f64 = 3.0;
-const EDGES: f64 = 8.0;
+/// Edges of a sample: evenness over some three samples' distance. The poses of limbs, which both sides have in common,
+/// follow from nothing else; a local isometry is only as good as its few pairs.
+const EDGES: f64 = 32.0;
+/// The same in the plane, where the joints of limbs are to turn.
+const EDGES_IN_PLANE: f64 = 8.0;
 /// Mass of a sample without a partner: it follows.
 const FOLLOWS: f64 = 0.02;
 /// Residual at which a pair's say falls to 1/e, fraction of L, and the least it has.
@@ -67,11 +71,15 @@ pub(super) fn say(partner: &Partner) -> f64 {
     (-(partner.residual / RESIDUAL).powi(2)).exp().max(LEAST)
 }
 
-/// The factor of the weights between neighbours for which they have 8 for each sample in the mean.
+/// The factor of the weights between neighbours for which they have [`EDGES`] for each sample in the mean.
 pub(super) fn edge_scale(land: &Land<'_>) -> f64 {
     let reach = land.reach;
     let all: f64 = reach.edges.iter().map(|(_, w)| 2.0 * w).sum();
-    EDGES * reach.neighbors.len() as f64 / all.max(f64::MIN_POSITIVE)
+    let edges = match land.samples.ambient {
+        Ambient::Plane => EDGES_IN_PLANE,
+        Ambient::Space => EDGES,
+    };
+    edges * reach.neighbors.len() as f64 / all.max(f64::MIN_POSITIVE)
 }
 
 /// The `wanted` smallest eigenvectors for the rows of sign `s`, a vector for each sample.
@@ -107,8 +115,8 @@ fn rows(
     Ok(vectors.iter().map(split).collect())
 }
 
-/// w |rho_i - rho_j|^2 over the edges between neighbours, 8 for each sample in the mean, more where the surface
-/// is stiff.
+/// w |rho_i - rho_j|^2 over the edges between neighbours, [`EDGES`] for each sample in the mean, more where the
+/// surface is stiff.
 fn add_edges(entries: &mut Entries, land: &Land<'_>) {
     let scale = edge_scale(land);
     for &([i, j], w) in &land.reach.edges {

@@ -8,6 +8,8 @@ use std::mem::MaybeUninit;
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::perm::PermRef;
+use faer::sparse::linalg::amd;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
     factorize_symbolic_cholesky,
@@ -35,12 +37,43 @@ impl Cholesky {
     /// # Errors
     /// [`SolveError::Setup`].
     pub fn new(column_starts: Vec<usize>, rows: Vec<usize>) -> Result<Self, SolveError> {
+        Self::ordered(column_starts, rows, SymmetricOrdering::Amd)
+    }
+
+    /// The same of a matrix of square blocks of `size`, ordered block by block: to look for the order among single
+    /// rows takes longer than to factorise. `blocks` are the rows of each column's blocks, the diagonal first.
+    ///
+    /// # Errors
+    /// [`SolveError::Setup`].
+    pub fn of_blocks(
+        blocks: &[Vec<usize>],
+        size: usize,
+        (column_starts, rows): (Vec<usize>, Vec<usize>),
+    ) -> Result<Self, SolveError> {
+        let order = order(blocks)?;
+        let forward: Vec<usize> = order
+            .iter()
+            .flat_map(|b| size * b..size * (b + 1))
+            .collect();
+        let mut inverse = vec![0; forward.len()];
+        for (to, &from) in forward.iter().enumerate() {
+            inverse[from] = to;
+        }
+        let order = PermRef::new_checked(&forward, &inverse, forward.len());
+        Self::ordered(column_starts, rows, SymmetricOrdering::Custom(order))
+    }
+
+    fn ordered(
+        column_starts: Vec<usize>,
+        rows: Vec<usize>,
+        ordering: SymmetricOrdering<'_, usize>,
+    ) -> Result<Self, SolveError> {
         let n = column_starts.len() - 1;
         let pattern = SymbolicSparseColMat::new_checked(n, n, column_starts, None, rows);
         let symbolic = factorize_symbolic_cholesky(
             pattern.as_ref(),
             Side::Lower,
-            SymmetricOrdering::Amd,
+            ordering,
             CholeskySymbolicParams::default(),
         )
         .map_err(|_| SolveError::Setup)?;
@@ -128,4 +161,27 @@ impl Cholesky {
             Err(SolveError::Inaccurate)
         }
     }
+}
+
+/// The order of elimination by least degree, of a matrix whose columns have entries in these rows.
+fn order(columns: &[Vec<usize>]) -> Result<Vec<usize>, SolveError> {
+    let mut starts = vec![0];
+    let mut rows = Vec::new();
+    for column in columns {
+        rows.extend(column);
+        starts.push(rows.len());
+    }
+    let n = columns.len();
+    let pattern = SymbolicSparseColMat::new_checked(n, n, starts, None, rows);
+    let need = amd::order_maybe_unsorted_scratch::<usize>(n, pattern.compute_nnz());
+    let (mut forward, mut inverse) = (vec![0; n], vec![0; n]);
+    amd::order_maybe_unsorted(
+        &mut forward,
+        &mut inverse,
+        pattern.as_ref(),
+        amd::Control::default(),
+        MemStack::new(&mut MemBuffer::new(need)),
+    )
+    .map_err(|_| SolveError::Setup)?;
+    Ok(forward)
 }
