@@ -13,7 +13,7 @@ use crate::deform::solver::{Entries, SolveError};
 use crate::field::SymmetryField;
 use crate::field::grow::Land;
 use crate::geom::Matrix3;
-use crate::straighten::rotations::{PAIRS, edge_scale, say};
+use crate::straighten::rotations::{Evenness, PAIRS, edge_scale, say};
 
 /// Rounds of the solve, and the angle, radians, by which a pair misses its sum where it begins to count less.
 const ROUNDS: usize = 8;
@@ -115,7 +115,7 @@ fn even(
     count: usize,
 ) -> Result<Vec<f64>, SolveError> {
     let mut entries = Entries::default();
-    let scale = edge_scale(land);
+    let scale = edge_scale(land, Evenness::AtLast);
     for &([i, j], w) in &land.reach.edges {
         let w = scale * w * land.firmness([i, j]);
         entries.add_square(&[(j as usize, 1.0), (i as usize, -1.0)], w);

@@ -9,6 +9,7 @@ use crate::field::{Partner, SymmetryField, find};
 use crate::geom::{Matrix3, Vector, nearest_orthogonal, sorted_eigen};
 use crate::shape::ClosestPoint;
 use crate::straighten::blend::Blend;
+use crate::straighten::rotations::Evenness;
 use crate::straighten::{rotations, settle};
 use crate::transform::Isometry;
 
@@ -94,7 +95,7 @@ impl Bend {
             }
             Verdict::Uncertain | Verdict::Accept => settled.of(&trust.trusted),
         };
-        let turns = rotations::solved(land, &field)?;
+        let turns = rotations::solved(land, &field, Evenness::AtLast)?;
         let degrees = span(&shared(&turns, &field));
         Ok(Some(Self {
             settled,

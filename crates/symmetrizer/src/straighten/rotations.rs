@@ -14,11 +14,13 @@ use crate::field::{Partner, SymmetryField};
 use crate::geom::{Ambient, Matrix3, Vector, nearest_orthogonal};
 use crate::straighten::angles;
 
-/// W, beside [`EDGES`] for all edges of a sample.
+/// W, beside [`Evenness`] for all edges of a sample.
 pub(super) const PAIRS: f64 = 3.0;
 /// Edges of a sample: evenness over some three samples' distance. The poses of limbs, which both sides have in common,
 /// follow from nothing else; a local isometry is only as good as its few pairs.
 const EDGES: f64 = 32.0;
+/// The same where pairs are only to settle from there: over seven samples' distance. At the end it would take detail.
+const EDGES_AT_FIRST: f64 = 128.0;
 /// The same in the plane, where the joints of limbs are to turn.
 const EDGES_IN_PLANE: f64 = 8.0;
 /// Mass of a sample without a partner: it follows.
@@ -34,23 +36,41 @@ const TURNED: f64 = 1e-14;
 /// Shift of the eigenproblem, against a singular matrix.
 const SHIFT: f64 = 1e-6;
 
+/// How even a rotation field is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Evenness {
+    /// For pairs that are yet to settle.
+    AtFirst,
+    /// For pairs that have.
+    AtLast,
+}
+
 /// The rotation of each sample.
 ///
 /// # Errors
 /// [`Error::Numerical`].
-pub fn solved(land: &Land<'_>, field: &SymmetryField) -> Result<Vec<Matrix3>, Error> {
-    rotations(land, field).map_err(|_| Error::Numerical {
+pub fn solved(
+    land: &Land<'_>,
+    field: &SymmetryField,
+    evenness: Evenness,
+) -> Result<Vec<Matrix3>, Error> {
+    rotations(land, field, evenness).map_err(|_| Error::Numerical {
         stage: "straighten",
         step: 0,
         what: "the rotation field could not be solved for".into(),
     })
 }
 
-fn rotations(land: &Land<'_>, field: &SymmetryField) -> Result<Vec<Matrix3>, SolveError> {
+fn rotations(
+    land: &Land<'_>,
+    field: &SymmetryField,
+    evenness: Evenness,
+) -> Result<Vec<Matrix3>, SolveError> {
     if land.samples.ambient == Ambient::Plane {
         return angles::solved(land, field);
     }
-    let (first, others) = rayon::join(|| rows(land, field, -1.0, 1), || rows(land, field, 1.0, 2));
+    let rows = |s, wanted| rows(land, field, evenness, s, wanted);
+    let (first, others) = rayon::join(|| rows(-1.0, 1), || rows(1.0, 2));
     let (first, others) = (first?, others?);
     let matrix = |i: usize| {
         let rows = [first[0][i], others[0][i], others[1][i]];
@@ -71,13 +91,14 @@ pub(super) fn say(partner: &Partner) -> f64 {
     (-(partner.residual / RESIDUAL).powi(2)).exp().max(LEAST)
 }
 
-/// The factor of the weights between neighbours for which they have [`EDGES`] for each sample in the mean.
-pub(super) fn edge_scale(land: &Land<'_>) -> f64 {
+/// The factor of the weights between neighbours for which they have so much `evenness` for each sample in the mean.
+pub(super) fn edge_scale(land: &Land<'_>, evenness: Evenness) -> f64 {
     let reach = land.reach;
     let all: f64 = reach.edges.iter().map(|(_, w)| 2.0 * w).sum();
-    let edges = match land.samples.ambient {
-        Ambient::Plane => EDGES_IN_PLANE,
-        Ambient::Space => EDGES,
+    let edges = match (land.samples.ambient, evenness) {
+        (Ambient::Plane, _) => EDGES_IN_PLANE,
+        (Ambient::Space, Evenness::AtFirst) => EDGES_AT_FIRST,
+        (Ambient::Space, Evenness::AtLast) => EDGES,
     };
     edges * reach.neighbors.len() as f64 / all.max(f64::MIN_POSITIVE)
 }
@@ -86,12 +107,13 @@ pub(super) fn edge_scale(land: &Land<'_>) -> f64 {
 fn rows(
     land: &Land<'_>,
     field: &SymmetryField,
+    evenness: Evenness,
     s: f64,
     wanted: usize,
 ) -> Result<Vec<Vec<Vector>>, SolveError> {
     let n = land.reach.neighbors.len();
     let mut entries = Entries::default();
-    add_edges(&mut entries, land);
+    add_edges(&mut entries, land, evenness);
     let mut mass = vec![FOLLOWS; n];
     for (p, (partner, map)) in field.partners.iter().zip(&field.maps).enumerate() {
         if let (Some(partner), Some(map)) = (partner, map) {
@@ -115,10 +137,10 @@ fn rows(
     Ok(vectors.iter().map(split).collect())
 }
 
-/// w |rho_i - rho_j|^2 over the edges between neighbours, [`EDGES`] for each sample in the mean, more where the
+/// w |rho_i - rho_j|^2 over the edges between neighbours, so much `evenness` for each sample in the mean, more where the
 /// surface is stiff.
-fn add_edges(entries: &mut Entries, land: &Land<'_>) {
-    let scale = edge_scale(land);
+fn add_edges(entries: &mut Entries, land: &Land<'_>, evenness: Evenness) {
+    let scale = edge_scale(land, evenness);
     for &([i, j], w) in &land.reach.edges {
         let w = scale * w * land.firmness([i, j]);
         let (i, j) = (i as usize, j as usize);

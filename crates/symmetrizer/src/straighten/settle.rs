@@ -18,6 +18,7 @@ use crate::shape::boundary::Boundary;
 use crate::shape::{ClosestPoint, Hit, Surface};
 use crate::straighten::blend::Blend;
 use crate::straighten::equations::{Equations, Spring, along};
+use crate::straighten::rotations::Evenness;
 use crate::straighten::slopes::{SIGNS, Slope, slopes};
 use crate::straighten::{rotations, solve};
 
@@ -120,7 +121,7 @@ fn moved(before: &[Option<Meeting>], after: &[Option<Meeting>]) -> f64 {
 impl<'a> Settling<'a> {
     /// Begins with what `field` says by itself.
     fn new(land: &'a Land<'a>, field: &SymmetryField) -> Result<Self> {
-        let turns = rotations::solved(land, field)?;
+        let turns = rotations::solved(land, field, Evenness::AtFirst)?;
         let begun = solve(land, field, &turns)?;
         let begun = land.surface.with_positions(begun);
         let samples = land.samples.list.iter().zip(turns);
