@@ -69,6 +69,11 @@ fn is_contradicted(detection: &Detection, details: &[Goal]) -> bool {
     for pair in main.pairs.iter().filter(|p| p.residual <= near) {
         held[pair.sample as usize] = true;
     }
+    is_outside(details, &held)
+}
+
+/// Whether most of any of the `details` lies where nothing is `held`.
+fn is_outside(details: &[Goal], held: &[bool]) -> bool {
     details.iter().any(|goal| {
         let samples = || goal.places.iter().flatten();
         let inside = samples().filter(|&&i| held[i as usize]).count();
@@ -120,7 +125,11 @@ pub(super) fn symmetrized(
     let looked = bent::unbend(&state, mean, params, settings, ctx)?;
     let verdict = looked.report.as_ref().map(|bend| bend.verdict);
     let merged = looked.done.is_none();
+    // A mirror that drifts over a plate passes by the elements on it as a straight one does.
+    let bend = looked.bent.as_ref().map(|bent| &bent.bend.trust.trusted);
+    let denied = contradicted && bend.is_some_and(|trusted| is_outside(&details, trusted));
     let done = match looked.done {
+        Some(_) if denied => return Ok(Arranged::plain(met(found, &all, settings, ctx)?)),
         Some(done) => done,
         None if contradicted && verdict != Some(Verdict::Accept) => {
             return Ok(Arranged::plain(met(found, &all, settings, ctx)?));

@@ -102,7 +102,7 @@ impl Judged {
             return Err(too_small(self.area_fraction));
         }
         well_conditioned(ground, &grown.pairs)?;
-        let confusion = confusion(ground, &grown.pairs, 1);
+        let confusion = confusion(ground, &grown.pairs);
         if confusion > params.max_confusion {
             return Err(unlike(confusion));
         }
@@ -152,8 +152,7 @@ impl Judged {
     }
 }
 
-/// Why a patch whose partners are confused so much with other places is refused.
-pub fn unlike(confusion: f64) -> String {
+fn unlike(confusion: f64) -> String {
     format!("partners look no more alike than many other places ({confusion:.2})")
 }
 
@@ -240,17 +239,16 @@ pub fn mirror_of(ground: &Ground<'_>, pairs: &[PatchPair]) -> Option<MirrorFit> 
     optimal_mirror(&pairs, ground.samples.ambient)
 }
 
-/// The median, over every `stride`th of the pairs, of the share of all samples that look more like the sample than
-/// what lies at its partner's place. Pairs across less than the widest curvature radius see the same
+/// The median, over the pairs, of the share of all samples that look more like the sample than what
+/// lies at its partner's place. Pairs across less than the widest curvature radius see the same
 /// ground from both sides and do not count.
-pub fn confusion(ground: &Ground<'_>, grown: &[PatchPair], stride: usize) -> f64 {
+fn confusion(ground: &Ground<'_>, grown: &[PatchPair]) -> f64 {
     let list = &ground.samples.list;
     let places: Vec<[f64; 3]> = list.iter().map(|s| s.position.coords.into()).collect();
     let index = PointIndex::new(&places);
     let too_near = 2.0 * ground.samples.radius;
     let mut ranks: Vec<f64> = grown
         .par_iter()
-        .step_by(stride)
         .filter_map(|pair| {
             let s = &list[pair.sample as usize];
             let y = ground.surface.point(&pair.partner);

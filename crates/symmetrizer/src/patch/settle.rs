@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::patch::ground::{Ground, contacts, touch, touch_one};
 use crate::patch::grow::Candidate;
-use crate::patch::judge::{confusion, too_small, unlike};
+use crate::patch::judge::too_small;
 use crate::patch::params::PatchParams;
 use crate::patch::refine::{refine, weigh};
 use crate::patch::symmetry::PatchPair;
@@ -69,10 +69,6 @@ const MOTION: [Round; 6] = [
 const WELL: f64 = 0.4;
 /// Share of the least area that a candidate must reach while it settles.
 const HOPEFUL: f64 = 0.8;
-/// Pairs by which a mirror is judged before it settles,
-const GLANCE: usize = 200;
-/// and by how much their confusion may exceed what it may be in the end: settling lowers it by a tenth or two.
-const FAR_FROM_ALIKE: f64 = 1.6;
 /// Rounds of settling at the most.
 const SETTLING: usize = 12;
 /// Settled: contacts move by less than this from round to round, fraction of L.
@@ -124,7 +120,6 @@ fn settle(
     let Candidate { class, seeds, .. } = candidate;
     let tolerance = params.tolerance_of(*class);
     let mut t = candidate.t;
-    let mut last_grown = Vec::new();
     for round in rounds {
         let bound = round.tolerance * tolerance;
         let grown = reach(ground, &t, bound, params.min_cos, candidate, round.rings);
@@ -136,10 +131,6 @@ fn settle(
             weigh(&t, &mut contacts, scale(&grown, seeds, 0.5));
         }
         t = refine(&t, *class, &contacts);
-        last_grown = grown;
-    }
-    if *class == Class::Mirror {
-        alike(ground, &last_grown, params)?;
     }
     let last = rounds.last().map_or(1.0, |r| r.tolerance) * tolerance;
     let mut spread = 0.0;
@@ -171,16 +162,6 @@ fn hopeful(ground: &Ground<'_>, grown: &[PatchPair], least: f64) -> Result<(), S
     let at_most = 2.0 * grown.len() as f64 / ground.samples.list.len() as f64;
     if at_most < HOPEFUL * least {
         return Err(too_small(at_most));
-    }
-    Ok(())
-}
-
-/// Refuses a mirror under which partners are confused far more than may be, though it has not settled yet.
-fn alike(ground: &Ground<'_>, grown: &[PatchPair], params: &PatchParams) -> Result<(), String> {
-    let stride = grown.len().div_ceil(GLANCE).max(1);
-    let confusion = confusion(ground, grown, stride);
-    if confusion > FAR_FROM_ALIKE * params.max_confusion {
-        return Err(unlike(confusion));
     }
     Ok(())
 }

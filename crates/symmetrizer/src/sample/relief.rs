@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Complex, SMatrix, SVector};
 
 use crate::geom::{Point, Vector};
-use crate::sample::signature::{Clouds, SCALES};
+use crate::sample::signature::SCALES;
 use crate::shape::curvature::Cloud;
 
 /// A local frame: the normal and a direction in the tangent plane from which turns are counted.
@@ -130,10 +130,10 @@ impl Harmonics {
         row
     }
 
-    /// The relief at `x` in `frame` at the radii of `clouds`.
-    pub fn relief(&self, clouds: &Clouds, x: &Point, frame: &Frame) -> Relief {
+    /// The relief at `x` in `frame` at the radii r0, 2 r0, 4 r0.
+    pub fn relief(&self, cloud: &Cloud, x: &Point, frame: &Frame, r0: f64) -> Relief {
         Relief(std::array::from_fn(|s| {
-            self.fit(clouds.at(s), x, frame, clouds.radius(s))
+            self.fit(cloud, x, frame, r0 * f64::from(1 << s))
         }))
     }
 
@@ -388,7 +388,8 @@ mod tests {
     }
 
     fn relief_of(surface: &Surface, frame: &Frame, x: &Point) -> Relief {
-        Harmonics::new().relief(&Clouds::new(surface, 0.06), x, frame)
+        let cloud = Cloud::new(surface, 0.02);
+        Harmonics::new().relief(&cloud, x, frame, 0.06)
     }
 
     /// The turn of the frame is found again, for a moved and for a mirrored copy, and only there.

@@ -11,8 +11,9 @@ use crate::sample::blue_noise::blue_noise;
 use crate::sample::crisp::Corners;
 use crate::sample::outline;
 use crate::sample::relief::{Frame, Harmonics, Relief};
-use crate::sample::signature::{Clouds, Signature, base_radius, describe};
+use crate::sample::signature::{Signature, base_radius, describe};
 use crate::shape::ClosestPoint;
+use crate::shape::curvature::Cloud;
 use crate::shape::surface::{Surface, SurfacePoint};
 use crate::shape::wall::Wall;
 
@@ -103,7 +104,7 @@ impl Samples {
 
 /// What samples are fitted to.
 struct Fitted {
-    clouds: Clouds,
+    cloud: Cloud,
     corners: Corners,
     harmonics: Harmonics,
 }
@@ -148,15 +149,15 @@ impl<'a> Describer<'a> {
     /// The sample at a surface point.
     pub fn sample(&self, at: &SurfacePoint) -> Sample {
         let Fitted {
-            clouds,
+            cloud,
             corners,
             harmonics,
         } = self.fitted.get_or_init(|| Fitted {
-            clouds: Clouds::new(self.surface, self.r0),
+            cloud: Cloud::new(self.surface, self.r0 / 4.0),
             corners: Corners::new(self.surface),
             harmonics: Harmonics::new(),
         });
-        let (mut signature, mut e1, n) = describe(self.surface, clouds, at);
+        let (mut signature, mut e1, n) = describe(self.surface, cloud, at, self.r0);
         if let Some(wall) = self.wall {
             let (ring, along) = wall.along(at);
             signature = outline::signature(wall, ring, along, self.r0);
@@ -175,7 +176,7 @@ impl<'a> Describer<'a> {
             signature,
             e1,
             frame,
-            relief: harmonics.relief(clouds, &position, &frame),
+            relief: harmonics.relief(cloud, &position, &frame, self.r0),
         }
     }
 }

@@ -7,38 +7,6 @@ use crate::shape::surface::{Surface, SurfacePoint};
 /// The number of radii: r0, 2 r0, 4 r0 (docs/definitions.md: r0 = 2.5 median edges, within 0.02 and 0.1 L).
 pub const SCALES: usize = 3;
 
-/// A surface as points to fit to, for each radius as dense as its fits need.
-pub struct Clouds {
-    clouds: [Cloud; SCALES],
-    r0: f64,
-}
-
-/// Side of the cubes to which the points for wider radii are thinned, in units of the radius: some three hundred
-/// points in a ball. With a third of that an asymmetric blob has a mirror.
-const CUBE: f64 = 0.1;
-
-impl Clouds {
-    /// Of `surface` for the radii r0, 2 r0 and 4 r0; `r0` is a fraction of L.
-    pub fn new(surface: &Surface, r0: f64) -> Self {
-        let fine = Cloud::new(surface, r0 / 4.0);
-        let [middle, wide] = [2.0, 4.0].map(|k| fine.coarser(CUBE * k * r0));
-        Self {
-            clouds: [fine, middle, wide],
-            r0,
-        }
-    }
-
-    /// The radius of scale `s`, fraction of L.
-    pub fn radius(&self, s: usize) -> f64 {
-        self.r0 * f64::from(1 << s)
-    }
-
-    /// The points for scale `s`.
-    pub fn at(&self, s: usize) -> &Cloud {
-        &self.clouds[s]
-    }
-}
-
 /// Curvatures at each radius r as (asinh k1 r, asinh k2 r): dimensionless, the same for a shape
 /// and its mirror image. A radius whose ball reaches over a boundary is `None`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,14 +43,14 @@ pub fn base_radius(surface: &Surface) -> f64 {
 /// where the curvatures differ enough to define one) and the fitted normal of that radius.
 pub fn describe(
     surface: &Surface,
-    clouds: &Clouds,
+    cloud: &Cloud,
     at: &SurfacePoint,
+    r0: f64,
 ) -> (Signature, Option<Vector>, Vector) {
     let x = surface.point(at);
     let n = surface.normal(at);
-    let radius = |s: usize| clouds.radius(s);
-    let fits: [Option<Curvature>; SCALES] =
-        std::array::from_fn(|s| clouds.at(s).fit(&x, &n, radius(s)));
+    let radius = |s: usize| r0 * f64::from(1 << s);
+    let fits: [Option<Curvature>; SCALES] = std::array::from_fn(|s| cloud.fit(&x, &n, radius(s)));
     let signature = std::array::from_fn(|s| {
         let k = fits[s].filter(|k| k.coverage > MIN_COVERAGE)?;
         Some([(k.k1 * radius(s)).asinh(), (k.k2 * radius(s)).asinh()])

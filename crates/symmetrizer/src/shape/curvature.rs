@@ -78,12 +78,6 @@ impl Cloud {
         }
     }
 
-    /// The same with at most one point for each way that the surface faces in a cube of side `cell`: enough for wider
-    /// fits.
-    pub fn coarser(&self, cell: f64) -> Self {
-        self.thinned(cell).indexed()
-    }
-
     fn indexed(mut self) -> Self {
         let places: Vec<[f64; 3]> = self.points.iter().map(|p| p.coords.into()).collect();
         self.index = PointIndex::new(&places);
