@@ -229,6 +229,20 @@ fn exact_shapes_are_not_touched() {
     }
 }
 
+/// A mirror of the plate that drifts by some degrees passes by the elements on it: no bend is undone for it.
+#[test]
+fn a_plate_with_elements_that_stand_any_way_is_not_bent() {
+    let Some(path) = data("truth/design_six_samemesh.obj") else {
+        return;
+    };
+    let done = run(&load(&path), &Params::default());
+    let bent = |step: &Step| matches!(step, Step::Straighten { .. } | Step::ContractWhole { .. });
+    assert!(!done.report.steps.iter().any(bent));
+    assert!(goals(&done).iter().any(|g| g.name == "6 copies"));
+    let distortion = &done.report.result.as_ref().expect("a result").distortion;
+    assert!(distortion.rms < 0.01, "moved by {} % of D", distortion.rms);
+}
+
 #[test]
 fn a_dented_vase_gets_its_mean_profile() {
     let Some(path) = data("truth/vase_continuous.ply") else {
