@@ -181,10 +181,7 @@ fn made(
     only: bool,
     ctx: &mut Context<'_>,
 ) -> Result<Symmetrized> {
-    let detect = match before.wall {
-        Some(_) => plane::sought(params),
-        None => params.detect().mirrors_only(),
-    };
+    let detect = params.detect().mirrors_only();
     let measured = ctx.stage("measure", |ctx| before.asymmetry(&[], ctx))?;
     let wall = before.wall.clone();
     let settings = settings_for(wall.as_ref(), stiffness.as_deref(), &detect, params);
@@ -242,9 +239,10 @@ fn made(
         report,
     };
     if done.outcome != Outcome::NoSymmetry {
-        let again = match done.goals.is_empty() {
-            true => detect.clone(),
-            false => sought_again(params, &detect, &job.before),
+        let again = match (&job.before.wall, done.goals.is_empty()) {
+            (Some(_), _) => params.detect().whole_mirrors(),
+            (None, true) => detect.clone(),
+            (None, false) => params.detect(),
         };
         job.conclude(done, mesh, &again, ctx)?;
         if let Some(state) = merged.filter(|_| guard::worse(&job)) {
@@ -266,14 +264,6 @@ fn made(
     Ok(job)
 }
 
-/// What is looked for in the result of orbits: all that was in the input.
-fn sought_again(params: &Params, detect: &DetectParams, before: &Detected) -> DetectParams {
-    match before.wall {
-        Some(_) => detect.clone(),
-        None => params.detect(),
-    }
-}
-
 /// A drawing with its group or its one line made exact, straight or bent, or else the turns of some of its rings; or a
 /// shape of which `only` the bend is to be undone. Its asymmetry is that `mean` (fraction of L), or it is `exact`.
 fn mirrored(
@@ -286,7 +276,7 @@ fn mirrored(
     let surface = &before.working.surface;
     let goals = match only {
         true => Vec::new(),
-        false => plane::groups(before, settings),
+        false => plane::goals(before, settings),
     };
     let turned = |ctx: &mut Context<'_>| {
         ctx.stage("orbits", |ctx| {

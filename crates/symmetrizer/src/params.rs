@@ -43,7 +43,7 @@ pub struct Params {
 
 /// What each parameter may be. The limits keep work and memory finite and formulas defined; within
 /// them not every value is wise.
-const RANGES: [(&str, f64, f64); 45] = [
+const RANGES: [(&str, f64, f64); 50] = [
     ("sample.count", 100.0, 20_000.0),
     ("sample.outline", 100.0, 2_000.0),
     ("pair.tolerance", 1e-6, 100.0),
@@ -54,6 +54,7 @@ const RANGES: [(&str, f64, f64); 45] = [
     ("patch.tolerance", 1e-6, 0.5),
     ("patch.min_cos", -1.0, 1.0),
     ("patch.end", 1.0, 1e6),
+    ("patch.copy_end", 1.0, 1e6),
     ("patch.min_area", 0.0, 1.0),
     ("patch.max_confusion", 0.0, 1.0),
     ("pair.min_strength", 0.0, 10.0),
@@ -65,6 +66,10 @@ const RANGES: [(&str, f64, f64); 45] = [
     ("patch.max_unlikeness", 0.0, 2.0),
     ("patch.min_copy", 0.0, 1.0),
     ("patch.min_firmness", 0.0, 1.0),
+    ("patch.outline_copy", 0.0, 1.0),
+    ("patch.outline_filled", 0.0, 2.0),
+    ("patch.outline_unlikeness", 0.0, 2.0),
+    ("patch.outline_chance", 0.0, 1.0),
     ("patch.max_doubt", 0.0, 2.0),
     ("patch.min_height", 0.0, 1.0),
     ("slip.tolerance", 1e-4, 0.5),

@@ -6,9 +6,8 @@ use crate::detect::Cloud;
 use crate::detect::search::{Again, motions};
 use crate::detect::surroundings::Surroundings;
 use crate::error::Result;
-use crate::pair::guided_pairs;
+use crate::pair::Likes;
 use crate::patch::Symmetry;
-use crate::sample::Probe;
 use crate::transform::Class;
 
 /// Adds to `symmetries` the further copies of parts that have one.
@@ -17,11 +16,12 @@ use crate::transform::Class;
 /// [`crate::Error::Cancelled`].
 pub fn again(
     surroundings: &Surroundings<'_>,
-    (probes, likes): (&[Probe], &[Vec<u32>]),
+    likes: &Likes<'_>,
     symmetries: &mut Vec<Symmetry>,
     ctx: &mut Context<'_>,
 ) -> Result<()> {
     let part = Repeated::of(symmetries, surroundings.ground.samples.list.len());
+    let probes = likes.probes;
     let inside = |k: &u32| part.member[probes[*k as usize].place as usize];
     let mut asking: Vec<u32> = (0..probes.len() as u32).filter(inside).collect();
     if asking.is_empty() {
@@ -43,14 +43,7 @@ pub fn again(
         if class == Class::Mirror {
             continue;
         }
-        let pairs = guided_pairs(
-            probes,
-            likes,
-            &asking,
-            class,
-            surroundings.space,
-            &params.pair,
-        );
+        let pairs = likes.guided(&asking, class, surroundings.space, &params.pair);
         let cloud = Cloud::new(class, pairs, surroundings.space);
         let clusters = cloud.votes.clusters(&params.cluster);
         let found = motions(

@@ -6,6 +6,7 @@ mod apart;
 mod arrange;
 mod complete;
 pub mod groups;
+mod in_plane;
 mod mirrors;
 mod pass;
 mod search;
@@ -21,16 +22,17 @@ use surroundings::Surroundings;
 use crate::cluster::{ClusterParams, Votes};
 use crate::context::Context;
 use crate::error::Result;
-use crate::pair::{Pair, PairParams, likes, mirror_pairs, rigid_pairs};
+use crate::geom::Ambient;
+use crate::pair::{Likes, Pair, PairParams, mirror_pairs};
 use crate::patch::{Candidate, Ground, PatchParams, Refusal, Settled, Symmetry, settled};
 use crate::sample::outline::sample_outline;
 use crate::sample::samples::Describer;
-use crate::sample::{SampleParams, Samples, probes, sample};
+use crate::sample::{Probe, SampleParams, Samples, probes, probes_of_outline, sample};
 use crate::shape::fairing::faired;
 use crate::shape::wall::Wall;
 use crate::shape::{ClosestPoint, Surface};
 use crate::slip::{Continuous, SlipParams, continuous};
-use crate::transform::{Class, Isometry, Kind, TransformSpace};
+use crate::transform::{Class, Isometry, TransformSpace};
 
 /// Parameters of detection, a section for each stage.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -72,12 +74,14 @@ impl DetectParams {
         Self {
             wanted,
             slip: None,
-            patch: PatchParams {
-                end: f64::MAX,
-                ..self.patch
-            },
-            ..self
+            ..self.whole_mirrors()
         }
+    }
+
+    /// The same with the patches of mirrors as far as the tolerance.
+    pub fn whole_mirrors(mut self) -> Self {
+        self.patch.end = f64::MAX;
+        self
     }
 }
 
@@ -173,10 +177,8 @@ pub fn detect(
     params: &DetectParams,
     ctx: &mut Context<'_>,
 ) -> Result<Detection> {
-    // Noise as high as the triangles are long hides curvature: the shape under it is looked at.
     let fair = faired(surface);
-    let surface = fair.as_ref().unwrap_or(surface);
-    let describer = Describer::new(surface, if fair.is_some() { WIDENING } else { 1.0 });
+    let describer = describer(surface, fair.as_ref());
     let samples = ctx.stage("sample", |ctx| sample(&describer, &params.sample, ctx))?;
     find(&describer, samples, params, Given::default(), ctx)
 }
@@ -193,8 +195,7 @@ pub fn detect_anew(
     ctx: &mut Context<'_>,
 ) -> Result<Detection> {
     let fair = faired(surface);
-    let surface = fair.as_ref().unwrap_or(surface);
-    let describer = Describer::new(surface, if fair.is_some() { WIDENING } else { 1.0 });
+    let describer = describer(surface, fair.as_ref());
     let samples = found.samples.clone();
     let given = Given {
         known: &found.clouds,
@@ -203,8 +204,15 @@ pub fn detect_anew(
     find(&describer, samples, params, given, ctx)
 }
 
-/// Finds the mirror lines of an outline, partial ones too, as mirrors at right angles to its plane, and the turns of
-/// the whole, or of rings that have them by themselves.
+/// What describes the samples of `surface`: noise as high as the triangles are long hides curvature, so that the `fair` shape
+/// under it is looked at.
+fn describer<'a>(surface: &'a Surface, fair: Option<&'a Surface>) -> Describer<'a> {
+    let widening = if fair.is_some() { WIDENING } else { 1.0 };
+    Describer::new(fair.unwrap_or(surface), widening)
+}
+
+/// Finds the symmetries of an outline, partial ones too: mirror lines, as mirrors at right angles to its plane, turns, shifts and
+/// glides of the plane, and the turns of the whole, or of rings that have them by themselves, of any order.
 ///
 /// # Errors
 /// As [`detect`].
@@ -213,9 +221,9 @@ pub fn detect_in_plane(
     params: &DetectParams,
     ctx: &mut Context<'_>,
 ) -> Result<Detection> {
-    let rotations = params.wanted.has(Kind::Rotation);
     let params = DetectParams {
-        wanted: Wanted::mirrors(),
+        wanted: params.wanted.in_plane(),
+        patch: params.patch.in_plane(),
         slip: None,
         ..params.clone()
     };
@@ -224,7 +232,7 @@ pub fn detect_in_plane(
         sample_outline(&describer, wall, &params.sample, ctx)
     })?;
     let given = Given {
-        turned: rotations.then_some(wall),
+        wall: Some(wall),
         ..Given::default()
     };
     find(&describer, samples, &params, given, ctx)
@@ -233,8 +241,8 @@ pub fn detect_in_plane(
 /// What is known before the search.
 #[derive(Default)]
 struct Given<'a> {
-    /// The wall that the surface is, where turns of the whole or of rings are looked for.
-    turned: Option<&'a Wall>,
+    /// The wall that the surface is, in the plane.
+    wall: Option<&'a Wall>,
     /// Clouds of votes of the same samples; that of mirrors is used again.
     known: &'a [Cloud],
 }
@@ -244,7 +252,7 @@ fn find(
     describer: &Describer<'_>,
     samples: Samples,
     params: &DetectParams,
-    Given { turned, known }: Given<'_>,
+    given: Given<'_>,
     ctx: &mut Context<'_>,
 ) -> Result<Detection> {
     let surface = describer.surface;
@@ -259,13 +267,6 @@ fn find(
         Some(slip) => ctx.stage("slip", |_| Ok(continuous(&samples, slip)))?,
         None => Vec::new(),
     };
-    let classes = params.wanted.classes();
-    let probes = ctx.stage("probe", |ctx| {
-        let rigid = classes.iter().any(|&c| c != Class::Mirror);
-        let count = if rigid { params.sample.count } else { 0 };
-        Ok(probes(describer, &samples, count, &mut ctx.rng("probe")))
-    })?;
-    let likes = ctx.stage("pair", |_| Ok(likes(&probes, &params.pair)))?;
     let surroundings = Surroundings {
         ground: &ground,
         space: &space,
@@ -273,63 +274,110 @@ fn find(
         continuous: &continuous,
         params,
     };
-    let mut clouds = Vec::new();
-    let mut symmetries: Vec<Symmetry> = Vec::new();
-    let mut refused = Vec::new();
-    let mut drifting = Vec::new();
-    for class in classes {
-        let known = known.iter().find(|c| c.class == Class::Mirror);
-        let mut cloud = ctx.stage("pair", |ctx| {
-            let pairs = match (class, known) {
-                (Class::Mirror, Some(known)) => return Ok(known.anew(&space)),
-                (Class::Mirror, None) => mirror_pairs(&samples, None, &params.pair, ctx)?,
-                _ => rigid_pairs(&probes, &likes, class, &space, &params.pair, ctx)?,
-            };
-            Ok(Cloud::new(class, pairs, &space))
-        })?;
-        let clusters = ctx.stage("cluster", |_| Ok(cloud.votes.clusters(&params.cluster)))?;
-        let found = ctx.stage("patch", |ctx| {
-            search::search(&surroundings, clusters, &mut cloud, &symmetries, ctx)
-        })?;
-        symmetries.extend(found.symmetries);
-        refused.extend(found.refused);
-        drifting.extend(found.drifting);
-        clouds.push(cloud);
-    }
-    if clouds.iter().any(|c| c.class != Class::Mirror) {
-        ctx.stage("again", |ctx| {
-            again::again(&surroundings, (&probes, &likes), &mut symmetries, ctx)
-        })?;
-        ctx.stage("complete", |ctx| {
-            complete::complete(&surroundings, &mut symmetries, &drifting, ctx)
-        })?;
-    }
-    let turns = turned.map_or_else(Vec::new, |wall| turns::turns(&ground, wall));
-    let (lines, turns): (Vec<_>, Vec<_>) = turns.into_iter().map(|t| (t.line, t.symmetry)).unzip();
-    let first = symmetries.len();
-    symmetries.extend(turns);
-    for (id, s) in (0..).zip(&mut symmetries) {
-        s.id = id;
-    }
+    let mut looked = looked(&surroundings, given.known, ctx)?;
+    let groups = match given.wall {
+        Some(wall) => in_plane::arrange(&surroundings, wall, &mut looked.symmetries),
+        None => {
+            numbered(&mut looked.symmetries);
+            arrange::arrange(&surroundings, &looked.symmetries)
+        }
+    };
     let continuous = continuous
         .iter()
         .filter(|c| c.is_telling(&samples))
         .cloned()
         .collect();
-    let turns = symmetries[first..].iter().zip(&lines);
-    let groups = match lines.is_empty() {
-        true => arrange::arrange(&surroundings, &symmetries),
-        false => turns
-            .map(|(turn, line)| turns::group(turn, line.as_ref(), &symmetries))
-            .collect(),
-    };
     Ok(Detection {
-        samples,
-        space,
-        clouds,
-        symmetries,
-        refused,
+        clouds: looked.clouds,
+        symmetries: looked.symmetries,
+        refused: looked.refused,
         groups,
         continuous,
+        samples,
+        space,
     })
+}
+
+/// Names symmetries by their number.
+fn numbered(symmetries: &mut [Symmetry]) {
+    for (id, s) in (0..).zip(symmetries) {
+        s.id = id;
+    }
+}
+
+/// What the search through all clouds of votes came to.
+#[derive(Default)]
+struct Looked {
+    clouds: Vec<Cloud>,
+    symmetries: Vec<Symmetry>,
+    refused: Vec<Refusal>,
+}
+
+/// Pairs, clusters and patches of each class that is wanted, and what follows from them; the votes of mirrors are those of a cloud that is
+/// `known`.
+fn looked(
+    surroundings: &Surroundings<'_>,
+    known: &[Cloud],
+    ctx: &mut Context<'_>,
+) -> Result<Looked> {
+    let Surroundings {
+        ground,
+        space,
+        params,
+        ..
+    } = surroundings;
+    let samples = ground.samples;
+    let classes = params.wanted.classes();
+    let probes = ctx.stage("probe", |ctx| Ok(probed(surroundings, &classes, ctx)))?;
+    let likes = ctx.stage("pair", |_| {
+        Ok(Likes::new(&probes, samples.ambient, &params.pair))
+    })?;
+    let mut looked = Looked::default();
+    let mut drifting = Vec::new();
+    for &class in &classes {
+        let known = known.iter().find(|c| c.class == Class::Mirror);
+        let mut cloud = ctx.stage("pair", |ctx| {
+            let pairs = match (class, known) {
+                (Class::Mirror, Some(known)) => return Ok(known.anew(space)),
+                (Class::Mirror, None) => mirror_pairs(samples, None, &params.pair, ctx)?,
+                _ => likes.pairs(class, space, &params.pair, ctx)?,
+            };
+            Ok(Cloud::new(class, pairs, space))
+        })?;
+        let clusters = ctx.stage("cluster", |_| Ok(cloud.votes.clusters(&params.cluster)))?;
+        let found = ctx.stage("patch", |ctx| {
+            search::search(surroundings, clusters, &mut cloud, &looked.symmetries, ctx)
+        })?;
+        looked.symmetries.extend(found.symmetries);
+        looked.refused.extend(found.refused);
+        drifting.extend(found.drifting);
+        looked.clouds.push(cloud);
+    }
+    if classes.iter().any(|&c| c != Class::Mirror) {
+        ctx.stage("again", |ctx| {
+            again::again(surroundings, &likes, &mut looked.symmetries, ctx)
+        })?;
+        ctx.stage("complete", |ctx| {
+            complete::complete(surroundings, &mut looked.symmetries, &drifting, ctx)
+        })?;
+    }
+    Ok(looked)
+}
+
+/// The probes by which motions among the `classes` are looked for.
+fn probed(surroundings: &Surroundings<'_>, classes: &[Class], ctx: &Context<'_>) -> Vec<Probe> {
+    let samples = surroundings.ground.samples;
+    match samples.ambient {
+        _ if classes.iter().all(|&c| c == Class::Mirror) => Vec::new(),
+        Ambient::Plane => probes_of_outline(samples),
+        Ambient::Space => {
+            let count = surroundings.params.sample.count;
+            probes(
+                surroundings.describer,
+                samples,
+                count,
+                &mut ctx.rng("probe"),
+            )
+        }
+    }
 }

@@ -225,7 +225,7 @@ impl<'a> Place<'a> {
 }
 
 /// How often a turn makes a whole one.
-fn order(turn: &Symmetry) -> u32 {
+pub fn order(turn: &Symmetry) -> u32 {
     let linear = &turn.q_from_p.linear;
     let angle = f64::atan2(linear[(1, 0)], linear[(0, 0)]);
     (std::f64::consts::TAU / angle.abs()).round().max(1.0) as u32
@@ -295,7 +295,7 @@ fn about(centre: &Point, angle: f64) -> Isometry {
 }
 
 /// The point that a turn of the plane leaves in its place.
-fn fixed_point(t: &Isometry) -> Point {
+pub fn fixed_point(t: &Isometry) -> Point {
     let linear = nalgebra::Matrix2::identity() - t.linear.fixed_view::<2, 2>(0, 0);
     let fixed = linear.try_inverse().map(|m| m * t.translation.xy());
     fixed.map_or_else(Point::origin, |x| Point::new(x.x, x.y, 0.0))

@@ -101,6 +101,15 @@ impl Wanted {
         }
     }
 
+    /// Of these what there is in the plane.
+    pub fn in_plane(&self) -> Self {
+        use Want::{Glide, Mirror, Rotation, Translation};
+        let there = [Mirror, Rotation, Translation, Glide];
+        let mut wanted = self.clone();
+        wanted.kinds.retain(|want| there.contains(want));
+        wanted
+    }
+
     /// Whether isometries of `kind` are looked for.
     pub fn has(&self, kind: Kind) -> bool {
         self.kinds.iter().any(|want| want.kind() == Some(kind))

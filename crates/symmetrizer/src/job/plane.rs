@@ -3,7 +3,7 @@
 use crate::apply::measure::asymmetry_of_outline;
 use crate::context::Context;
 use crate::deform::Stiffness;
-use crate::detect::{DetectParams, Want, Wanted};
+use crate::detect::DetectParams;
 use crate::drawing::{Drawing, Outline, Turns};
 use crate::error::{Error, Result};
 use crate::geom::Point;
@@ -12,7 +12,7 @@ use crate::job::follow::Follow;
 use crate::job::{Detected, Measured, Symmetrized, made};
 use crate::optimize::orbit::{Goal, Orbit};
 use crate::optimize::outcome::mirrors;
-use crate::optimize::plan::goals;
+use crate::optimize::plan;
 use crate::optimize::schedule::Settings;
 use crate::optimize::{Outcome, Step};
 use crate::params::Params;
@@ -45,6 +45,11 @@ impl Drawn {
         if self.job.goals.iter().any(|g| !g.is_of_the_whole()) {
             let what = "what is symmetric is only a part of the drawing";
             return Err(Error::input(what, "write it without --exact"));
+        }
+        let copies = |g: &Goal| matches!(g.orbit, Orbit::Regular(_) | Orbit::Free(_));
+        if self.job.goals.iter().any(copies) {
+            let what = "copies in rows and in free positions cannot be written exactly";
+            return Err(Error::input(what, "write them without --exact"));
         }
         if let Some(turns) = self.job.goals.first().and_then(turns) {
             return self.drawing.exact_under(&Turns {
@@ -157,48 +162,58 @@ fn asked_for(job: &Symmetrized) -> bool {
         || job.report.steps.iter().any(orbits)
 }
 
-/// What is looked for in a drawing that is to be made symmetric.
-pub(super) fn sought(params: &Params) -> DetectParams {
-    let detect = params.detect();
-    let kinds = [Want::Mirror, Want::Rotation];
-    let kinds = kinds
-        .into_iter()
-        .filter(|&want| detect.wanted.kinds.contains(&want));
-    DetectParams {
-        wanted: Wanted {
-            kinds: kinds.collect(),
-        },
-        ..detect.clone().mirrors_only()
-    }
-}
-
 /// Turns of rings that hold for this share of an outline come first where no line holds for as much of it as this: the
 /// lines of the rings hold for them and for a little of the rest.
 const TURNED: f64 = 0.4;
 const LINED: f64 = 0.9;
 
-/// Whether the groups of turns `goals` come before the lines of a drawing.
+/// Copies in free positions that together have less than this share of an outline are not made alike by themselves: the toes of
+/// a lizard are nearly copies, too.
+const COPIED: f64 = 0.5;
+
+/// Whether the groups of turns among the `goals` come before the lines of a drawing.
 pub(super) fn turns_first(found: &Detected, goals: &[Goal]) -> bool {
-    let share: f64 = goals.iter().map(|g| g.area_fraction).sum();
+    let order = |g: &Goal| turns(g).map_or(0, |turns| turns.order);
+    // Half a turn of a part is what any two lines across each other make.
+    let several = goals.iter().filter(|g| order(g) > 2);
+    let share: f64 = several.map(|g| g.area_fraction).sum();
     let lined = mirrors(&found.detection).any(|s| s.area_fraction >= LINED);
-    let whole = goals.iter().any(Goal::is_of_the_whole);
+    let whole = goals.iter().any(|g| order(g) > 1 && g.is_of_the_whole());
     whole || share >= TURNED && !lined
 }
 
-/// The groups of a drawing that has turns, of each ring's or of the whole; with more than turns where there are lines,
-/// too.
-pub(super) fn groups(found: &Detected, settings: Settings<'_>) -> Vec<Goal> {
+/// What else than lines a drawing has that is to be made exact: groups with turns, rows, grids, and copies that are most of it or
+/// are asked for.
+pub(super) fn goals(found: &Detected, settings: Settings<'_>) -> Vec<Goal> {
     if found.wall.is_none() {
         return Vec::new();
     }
     let all = found.symmetries().iter();
-    let turns: Vec<u32> = all
-        .filter(|s| s.class == Class::Proper)
+    let motions: Vec<u32> = all
+        .filter(|s| s.class != Class::Mirror)
         .map(|s| s.id)
         .collect();
-    let mut goals = goals(&found.detection, settings.optimize);
-    goals.retain(|g| g.symmetries.iter().any(|id| turns.contains(id)));
-    goals
+    let asked = settings.optimize.only.is_some();
+    let mut goals = plan::goals(&found.detection, settings.optimize);
+    goals.retain(|g| {
+        let moves = g.symmetries.iter().any(|id| motions.contains(id));
+        let free = matches!(g.orbit, Orbit::Free(_));
+        moves && (!free || asked || g.area_fraction >= COPIED)
+    });
+    let free = |g: &Goal| matches!(g.orbit, Orbit::Free(_));
+    let (copies, mut ordered): (Vec<Goal>, Vec<Goal>) = goals.into_iter().partition(free);
+    // What is in order already is told by that.
+    let of_its_own = |copies: &Goal| !ordered.iter().any(|g| lies_in(copies, g));
+    let copies: Vec<Goal> = copies.into_iter().filter(of_its_own).collect();
+    ordered.extend(copies);
+    ordered
+}
+
+/// Whether most of the places of `goal` are places of `other`.
+fn lies_in(goal: &Goal, other: &Goal) -> bool {
+    let samples = || goal.places.iter().flatten();
+    let inside = |i: &&u32| other.places.iter().any(|p| p.binary_search(i).is_ok());
+    2 * samples().filter(inside).count() > samples().count()
 }
 
 /// Finds the symmetries of a drawing's outline.
@@ -261,7 +276,7 @@ fn work(
 ) -> Result<Drawn> {
     params.check()?;
     warn_of(drawing, ctx);
-    let detect = sought(params);
+    let detect = params.detect().whole_mirrors();
     let (mesh, wall) = walled(drawing.outline())?;
     let stiffness = per_face(stiffness, drawing, &wall)?;
     let before = found(drawing.outline(), wall, &detect, ctx)?;

@@ -6,10 +6,11 @@ use rand::RngExt;
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg64;
 
+use crate::geom::Ambient;
 use crate::pair::mirror::mirror_of;
 use crate::pair::rigid::motion;
 use crate::pair::{Pair, PairParams};
-use crate::sample::Samples;
+use crate::sample::{Samples, profile};
 use crate::transform::{Class, Isometry};
 
 /// The mirror votes of `pairs` with their second places shuffled: of those, the pairs that pass the
@@ -37,7 +38,7 @@ pub fn shuffled_mirrors(
         .collect()
 }
 
-/// The votes of `pairs` for motions with their second places shuffled and any turn.
+/// The votes of `pairs` for motions with their second places shuffled and any turn that there is.
 pub fn shuffled_motions(
     pairs: &[Pair],
     class: Class,
@@ -50,16 +51,16 @@ pub fn shuffled_motions(
         let s = &samples.list[s as usize];
         (s.position, s.frame.turned(turn))
     };
+    let mut turn = || match samples.ambient {
+        Ambient::Space => rng.random_range(0.0..TAU),
+        Ambient::Plane => profile::turn(class),
+    };
     pairs
         .iter()
         .zip(others)
         .map(|(v, q)| Pair {
             q,
-            q_from_p: motion(
-                &place(v.p, 0.0),
-                &place(q, rng.random_range(0.0..TAU)),
-                class,
-            ),
+            q_from_p: motion(&place(v.p, 0.0), &place(q, turn()), class),
             ..*v
         })
         .collect()

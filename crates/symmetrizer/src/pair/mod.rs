@@ -8,7 +8,7 @@ use crate::transform::Isometry;
 
 pub use chance::{shuffled_mirrors, shuffled_motions};
 pub use mirror::mirror_pairs;
-pub use rigid::{guided_pairs, likes, rigid_pairs};
+pub use rigid::Likes;
 
 /// Which samples make a pair.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]

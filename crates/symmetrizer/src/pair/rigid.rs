@@ -8,10 +8,10 @@ use rayon::prelude::*;
 
 use crate::context::Context;
 use crate::error::Result;
-use crate::geom::{Matrix3, Point};
+use crate::geom::{Ambient, Matrix3, Point};
 use crate::pair::{Pair, PairParams};
-use crate::sample::relief::Sizes;
-use crate::sample::{Frame, Probe, Sample};
+use crate::sample::relief::{Alignment, Sizes};
+use crate::sample::{Frame, Probe, Relief, Sample, profile};
 use crate::transform::{Class, Isometry, TransformSpace};
 
 /// Samples that are like one by size of their harmonics are aligned with it up to this many times the
@@ -24,81 +24,135 @@ const GUIDED: usize = 4;
 /// A vote's own motion moves the shape by more than this, rms fraction of L: less is the
 /// surface lying on itself.
 const MIN_MOTION: f64 = 0.1;
-/// For each probe those whose relief is like its own by size of the harmonics, the most alike first: a
+
+/// Probes and for each of them those whose relief is like its own by size of the harmonics, the most alike first: a
 /// turn or a mirror image changes nothing of that.
-pub fn likes(probes: &[Probe], params: &PairParams) -> Vec<Vec<u32>> {
-    let sizes: Vec<Sizes> = probes.iter().map(|p| p.sample.relief.sizes()).collect();
-    let alike = |s: &Sizes| alike(&sizes, s, params);
-    sizes.par_iter().map(alike).collect()
+pub struct Likes<'a> {
+    /// The probes.
+    pub probes: &'a [Probe],
+    alike: Vec<Vec<u32>>,
+    ambient: Ambient,
 }
 
-/// The proper or improper votes of a surface's probes among their `likes`, each pair in both directions.
-///
-/// # Errors
-/// [`crate::Error::Cancelled`].
-pub fn rigid_pairs(
-    probes: &[Probe],
-    likes: &[Vec<u32>],
-    class: Class,
-    space: &TransformSpace,
-    params: &PairParams,
-    ctx: &mut Context<'_>,
-) -> Result<Vec<Pair>> {
-    let rarity = |p: u32| 1.0 / likes[p as usize].len().max(1) as f64;
-    let identity = Isometry::identity();
-    let votes: Vec<Vec<Pair>> = (0..probes.len() as u32)
-        .into_par_iter()
-        .map(|p| {
-            let found = partners(probes, p, &likes[p as usize], class, params);
-            let votes = found.into_iter().map(|(q, t)| Pair {
-                p: probes[p as usize].place,
-                q: probes[q as usize].place,
+impl<'a> Likes<'a> {
+    /// Of `probes`, samples of a shape that lives in `ambient`.
+    pub fn new(probes: &'a [Probe], ambient: Ambient, params: &PairParams) -> Self {
+        let sizes: Vec<Sizes> = probes.iter().map(|p| p.sample.relief.sizes()).collect();
+        let alike = |s: &Sizes| alike(&sizes, s, params);
+        Self {
+            probes,
+            alike: sizes.par_iter().map(alike).collect(),
+            ambient,
+        }
+    }
+
+    /// The proper or improper votes of all probes, each pair in both directions.
+    ///
+    /// # Errors
+    /// [`crate::Error::Cancelled`].
+    pub fn pairs(
+        &self,
+        class: Class,
+        space: &TransformSpace,
+        params: &PairParams,
+        ctx: &mut Context<'_>,
+    ) -> Result<Vec<Pair>> {
+        let weight = |p, q| (self.rarity(p) * self.rarity(q)).sqrt();
+        let every: Vec<u32> = (0..self.probes.len() as u32).collect();
+        let votes = self.votes(&every, class, space, params, weight);
+        ctx.progress(1.0)?;
+        Ok(votes)
+    }
+
+    /// Votes of the probes in `asking` alone, each with more partners: a second look at places that are known
+    /// to come again.
+    pub fn guided(
+        &self,
+        asking: &[u32],
+        class: Class,
+        space: &TransformSpace,
+        params: &PairParams,
+    ) -> Vec<Pair> {
+        let params = PairParams {
+            partners: GUIDED * params.partners,
+            ..params.clone()
+        };
+        let weight = |p, _| self.rarity(p);
+        self.votes(asking, class, space, &params, weight)
+    }
+
+    /// 1 / the number of probes that are like a probe.
+    fn rarity(&self, p: u32) -> f64 {
+        1.0 / self.alike[p as usize].len().max(1) as f64
+    }
+
+    /// The votes of the probes in `asking`, with their `weight`.
+    fn votes(
+        &self,
+        asking: &[u32],
+        class: Class,
+        space: &TransformSpace,
+        params: &PairParams,
+        weight: impl Fn(u32, u32) -> f64 + Sync,
+    ) -> Vec<Pair> {
+        let identity = Isometry::identity();
+        let of = |&p: &u32| -> Vec<Pair> {
+            let votes = self.partners(p, class, params).into_iter();
+            let votes = votes.map(|(q, t)| Pair {
+                p: self.probes[p as usize].place,
+                q: self.probes[q as usize].place,
                 q_from_p: t,
-                weight: (rarity(p) * rarity(q)).sqrt(),
+                weight: weight(p, q),
             });
             votes
                 .filter(|v| space.distance(&v.q_from_p, &identity) > MIN_MOTION)
                 .collect()
-        })
-        .collect();
-    ctx.progress(1.0)?;
-    Ok(votes.into_iter().flatten().collect())
-}
+        };
+        let votes: Vec<Vec<Pair>> = asking.par_iter().map(of).collect();
+        votes.into_iter().flatten().collect()
+    }
 
-/// Votes of the probes in `asking` alone, each with more partners: a second look at places that are known
-/// to come again.
-pub fn guided_pairs(
-    probes: &[Probe],
-    likes: &[Vec<u32>],
-    asking: &[u32],
-    class: Class,
-    space: &TransformSpace,
-    params: &PairParams,
-) -> Vec<Pair> {
-    let params = PairParams {
-        partners: GUIDED * params.partners,
-        ..params.clone()
-    };
-    let identity = Isometry::identity();
-    let votes: Vec<Vec<Pair>> = asking
-        .par_iter()
-        .map(|&p| {
-            let from = &probes[p as usize];
-            let likes = &likes[p as usize];
-            let found = partners(probes, p, likes, class, &params);
-            let weight = 1.0 / likes.len().max(1) as f64;
-            let votes = found.into_iter().map(|(q, t)| Pair {
-                p: from.place,
-                q: probes[q as usize].place,
-                q_from_p: t,
-                weight,
-            });
-            votes
-                .filter(|v| space.distance(&v.q_from_p, &identity) > MIN_MOTION)
-                .collect()
-        })
-        .collect();
-    votes.into_iter().flatten().collect()
+    /// The best partners of probe `p` among those like it, with the motions that carry it to them.
+    fn partners(&self, p: u32, class: Class, params: &PairParams) -> Vec<(u32, Isometry)> {
+        let s = &self.probes[p as usize].sample;
+        let likes = &self.alike[p as usize];
+        let mut found: Vec<(f64, u32, f64)> = likes
+            .iter()
+            .take(CANDIDATES * params.partners)
+            .flat_map(|&q| {
+                let other = &self.probes[q as usize].sample.relief;
+                let turns = self.turns(&s.relief, other, class, params.max_gap);
+                turns.into_iter().map(move |a| (a.gap, q, a.turn))
+            })
+            .collect();
+        found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        found.truncate(params.partners);
+        let place = |s: &Sample, turn: f64| (s.position, s.frame.turned(turn));
+        found
+            .into_iter()
+            .map(|(_, q, turn)| {
+                let t = &self.probes[q as usize].sample;
+                (q, motion(&place(s, 0.0), &place(t, turn), class))
+            })
+            .collect()
+    }
+
+    /// The turns at which two reliefs lie on each other, the best first: in the plane there is one for each class.
+    fn turns(&self, p: &Relief, q: &Relief, class: Class, max_gap: f64) -> Vec<Alignment> {
+        let mirrored = class.is_improper();
+        match self.ambient {
+            Ambient::Space => {
+                let mut turns = p.alignments(q, mirrored, max_gap);
+                turns.truncate(TURNS);
+                turns
+            }
+            Ambient::Plane => {
+                let turn = profile::turn(class);
+                let gap = p.gap_at(q, mirrored, turn).filter(|&gap| gap <= max_gap);
+                gap.map(|gap| Alignment { turn, gap }).into_iter().collect()
+            }
+        }
+    }
 }
 
 /// Those of all whose harmonics are like `s` by size, the most alike first.
@@ -111,39 +165,6 @@ fn alike(all: &[Sizes], s: &Sizes, params: &PairParams) -> Vec<u32> {
         .collect();
     found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     found.into_iter().map(|(_, q)| q).collect()
-}
-
-/// The best partners of probe `p` among `likes`, with the motions that carry it to them.
-fn partners(
-    probes: &[Probe],
-    p: u32,
-    likes: &[u32],
-    class: Class,
-    params: &PairParams,
-) -> Vec<(u32, Isometry)> {
-    let s = &probes[p as usize].sample;
-    let mut found: Vec<(f64, u32, f64)> = likes
-        .iter()
-        .take(CANDIDATES * params.partners)
-        .flat_map(|&q| {
-            let other = &probes[q as usize].sample.relief;
-            let mut turns = s
-                .relief
-                .alignments(other, class.is_improper(), params.max_gap);
-            turns.truncate(TURNS);
-            turns.into_iter().map(move |a| (a.gap, q, a.turn))
-        })
-        .collect();
-    found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    found.truncate(params.partners);
-    let place = |s: &Sample, turn: f64| (s.position, s.frame.turned(turn));
-    found
-        .into_iter()
-        .map(|(_, q, turn)| {
-            let t = &probes[q as usize].sample;
-            (q, motion(&place(s, 0.0), &place(t, turn), class))
-        })
-        .collect()
 }
 
 /// The motion that carries one place with its frame to another; improper ones turn the second tangent

@@ -114,7 +114,7 @@ pub fn grow_settled(
     let tolerance = params.tolerance_of(class);
     let Settled { t, spread } = rest.map_err(|reason| refuse(candidate.t, reason))?;
     // A patch ends where the isometry no longer holds as it does where it holds best.
-    let reached = (params.end * spread).clamp(0.25 * tolerance, tolerance);
+    let reached = (params.end_of(class) * spread).clamp(0.25 * tolerance, tolerance);
     let grown = reach(ground, &t, reached, params.min_cos, candidate, u32::MAX);
     if grown.is_empty() {
         return Err(refuse(t, NOWHERE.into()));

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::geom::{Point, PointIndex, Vector, median};
+use crate::geom::{Ambient, Point, PointIndex, Vector, median};
 use crate::patch::ground::{Ground, contacts, image};
 use crate::patch::likeness::unlikeness;
 use crate::patch::params::PatchParams;
@@ -125,7 +125,11 @@ impl Judged {
         if self.area_fraction < params.min_copy / slack {
             return Err(too_small(self.area_fraction));
         }
-        let firmness = held(&contacts(ground, &grown.pairs), params.min_firmness)?;
+        let firmness = held(
+            &contacts(ground, &grown.pairs),
+            ground.samples.ambient,
+            params.min_firmness,
+        )?;
         let firm = firmness * self.area_fraction >= FIRM;
         let slack = if firm { slack } else { 1.0 };
         let drift = (self.filled / params.max_filled).max(rim(ground, grown) / params.max_rim);
@@ -208,8 +212,8 @@ fn well_conditioned(ground: &Ground<'_>, grown: &[PatchPair]) -> Result<(), Stri
 }
 
 /// How firmly its contacts hold a motion, which does move them.
-fn held(contacts: &[Contact], min_firmness: f64) -> Result<f64, String> {
-    let firmness = firmness(contacts);
+fn held(contacts: &[Contact], ambient: Ambient, min_firmness: f64) -> Result<f64, String> {
+    let firmness = firmness(contacts, ambient);
     if firmness < min_firmness {
         return Err(format!("slides along itself (firmness {firmness:.3})"));
     }

@@ -8,7 +8,7 @@
 
 use nalgebra::{Matrix3 as M3, Matrix6, Vector3, Vector6};
 
-use crate::geom::{Point, Vector, any_orthogonal, exp_rotation};
+use crate::geom::{Ambient, Point, Vector, any_orthogonal, exp_rotation};
 use crate::transform::{Class, Isometry, Plane};
 
 /// A point x, the closest surface point y to its image, y's normal and a weight.
@@ -104,8 +104,9 @@ fn twist_row(arm: &Vector, direction: &Vector) -> Vector6<f64> {
 
 /// How firmly contacts hold a motion against sliding along the surface: the smallest over the mean
 /// eigenvalue of the point-to-plane normal matrix, turns counted at the contacts' rms distance from
-/// their centre. 0 for a plane, a cylinder, a sphere, any surface of revolution (Gelfand and Guibas 2004).
-pub fn firmness(contacts: &[Contact]) -> f64 {
+/// their centre. 0 for a plane, a cylinder, a sphere, any surface of revolution (Gelfand and Guibas 2004); in the plane,
+/// where there are one turn and two shifts, for a straight line and a circle.
+pub fn firmness(contacts: &[Contact], ambient: Ambient) -> f64 {
     let total: f64 = contacts.iter().map(|c| c.weight).sum();
     if total <= 0.0 {
         return 0.0;
@@ -126,8 +127,17 @@ pub fn firmness(contacts: &[Contact]) -> f64 {
         h.syger(c.weight / total, &row, &row, 1.0);
     }
     h.fill_upper_triangle_with_lower_triangle();
-    let eigen = h.symmetric_eigenvalues();
-    (eigen.min() / (eigen.sum() / 6.0)).max(0.0)
+    let (least, mean) = match ambient {
+        Ambient::Space => {
+            let eigen = h.symmetric_eigenvalues();
+            (eigen.min(), eigen.mean())
+        }
+        Ambient::Plane => {
+            let eigen = h.fixed_view::<3, 3>(2, 2).symmetric_eigenvalues();
+            (eigen.min(), eigen.mean())
+        }
+    };
+    (least / mean).max(0.0)
 }
 
 /// One Gauss-Newton step of the plane towards its contacts; the plane itself where the contacts

@@ -24,6 +24,25 @@ pub struct Probe {
     pub place: u32,
 }
 
+/// Those of the `samples` of an outline that lie where it has something to say: they are as dense as probes need be.
+pub fn probes_of_outline(samples: &Samples) -> Vec<Probe> {
+    let lively = lively(samples);
+    let all = samples.list.iter().zip(lively).zip(0..);
+    let probe = |((s, lively), place): ((&Sample, bool), u32)| {
+        lively.then_some(Probe { sample: *s, place })
+    };
+    all.filter_map(probe).collect()
+}
+
+/// Which samples lie on lively ground.
+fn lively(samples: &Samples) -> Vec<bool> {
+    let strengths: Vec<f64> = samples.list.iter().map(|s| s.relief.strength()).collect();
+    let mut sorted = strengths.clone();
+    sorted.sort_by(f64::total_cmp);
+    let high = sorted.get(sorted.len() * 9 / 10).copied().unwrap_or(0.0);
+    strengths.iter().map(|s| *s > LIVELY * high).collect()
+}
+
 /// About `count` samples of the lively part of the describer's surface; none where there is no such part.
 pub fn probes(
     describer: &Describer<'_>,
@@ -32,11 +51,7 @@ pub fn probes(
     rng: &mut Pcg64,
 ) -> Vec<Probe> {
     let surface = describer.surface;
-    let strengths: Vec<f64> = samples.list.iter().map(|s| s.relief.strength()).collect();
-    let mut sorted = strengths.clone();
-    sorted.sort_by(f64::total_cmp);
-    let high = sorted.get(sorted.len() * 9 / 10).copied().unwrap_or(0.0);
-    let lively: Vec<bool> = strengths.iter().map(|s| *s > LIVELY * high).collect();
+    let lively = lively(samples);
     let share = lively.iter().filter(|l| **l).count() as f64 / lively.len().max(1) as f64;
     if share == 0.0 {
         return Vec::new();

@@ -46,7 +46,7 @@ impl Frame {
 }
 
 /// Kept harmonics: (m, index among the radial polynomials of m).
-const TERMS: [(usize, usize); 7] = [(0, 1), (0, 2), (1, 1), (2, 0), (2, 1), (3, 0), (4, 0)];
+pub const TERMS: [(usize, usize); 7] = [(0, 1), (0, 2), (1, 1), (2, 0), (2, 1), (3, 0), (4, 0)];
 /// Largest m.
 const ORDERS: usize = 4;
 /// Coefficients of the whole fit, real.
@@ -54,10 +54,13 @@ const UNKNOWNS: usize = 15;
 /// Points that a fit needs, somewhat more than unknowns.
 const MIN_POINTS: usize = 22;
 
+/// The coefficients of a height, one for each of [`TERMS`].
+pub type Harmonic = [Complex<f64>; TERMS.len()];
+
 /// The height around a sample at three radii, each as harmonics; a radius whose disc reaches over a
 /// boundary or holds too few points is `None`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Relief(pub [Option<[Complex<f64>; TERMS.len()]>; SCALES]);
+pub struct Relief(pub [Option<Harmonic>; SCALES]);
 
 /// How two reliefs lie best on each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -137,13 +140,7 @@ impl Harmonics {
         }))
     }
 
-    fn fit(
-        &self,
-        cloud: &Cloud,
-        x: &Point,
-        frame: &Frame,
-        radius: f64,
-    ) -> Option<[Complex<f64>; TERMS.len()]> {
+    fn fit(&self, cloud: &Cloud, x: &Point, frame: &Frame, radius: f64) -> Option<Harmonic> {
         let e2 = frame.e2();
         let mut a = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::zeros();
         let mut b = SVector::<f64, UNKNOWNS>::zeros();

@@ -9,9 +9,9 @@ use crate::error::{Error, Result};
 use crate::geom::{Ambient, Point, PointIndex, Vector, any_orthogonal};
 use crate::sample::blue_noise::blue_noise;
 use crate::sample::crisp::Corners;
-use crate::sample::outline;
 use crate::sample::relief::{Frame, Harmonics, Relief};
 use crate::sample::signature::{Signature, base_radius, describe};
+use crate::sample::{outline, profile};
 use crate::shape::ClosestPoint;
 use crate::shape::curvature::Cloud;
 use crate::shape::surface::{Surface, SurfacePoint};
@@ -148,6 +148,9 @@ impl<'a> Describer<'a> {
 
     /// The sample at a surface point.
     pub fn sample(&self, at: &SurfacePoint) -> Sample {
+        if let Some(wall) = self.wall {
+            return self.on_outline(wall, at);
+        }
         let Fitted {
             cloud,
             corners,
@@ -157,12 +160,7 @@ impl<'a> Describer<'a> {
             corners: Corners::new(self.surface),
             harmonics: Harmonics::new(),
         });
-        let (mut signature, mut e1, n) = describe(self.surface, cloud, at, self.r0);
-        if let Some(wall) = self.wall {
-            let (ring, along) = wall.along(at);
-            signature = outline::signature(wall, ring, along, self.r0);
-            e1 = None;
-        }
+        let (signature, e1, n) = describe(self.surface, cloud, at, self.r0);
         let frame = Frame {
             n,
             e1: any_orthogonal(&n),
@@ -177,6 +175,27 @@ impl<'a> Describer<'a> {
             e1,
             frame,
             relief: harmonics.relief(cloud, &position, &frame, self.r0),
+        }
+    }
+
+    /// The sample at a point of an outline.
+    fn on_outline(&self, wall: &Wall, at: &SurfacePoint) -> Sample {
+        let (ring, along) = wall.along(at);
+        let normal = self.surface.normal(at);
+        let frame = profile::frame(wall, ring, along, 2.0 * self.r0);
+        let frame = frame.unwrap_or_else(|| Frame {
+            n: normal,
+            e1: Vector::z().cross(&normal),
+        });
+        Sample {
+            at: *at,
+            position: self.surface.point(at),
+            normal,
+            crisp: self.surface.face_normals[at.face as usize],
+            signature: outline::signature(wall, ring, along, self.r0),
+            e1: None,
+            frame,
+            relief: profile::profile(wall, ring, along, &frame, self.r0),
         }
     }
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::detect::arrange::{MIN_ORDER, is_closed, likeness};
 use crate::detect::groups::Group;
+use crate::detect::surroundings::Surroundings;
 use crate::geom::Point;
 use crate::patch::Symmetry;
 use crate::transform::Isometry;
@@ -12,13 +13,24 @@ use crate::transform::Isometry;
 const SAME_COPY: f64 = 0.5;
 
 /// Copies of one element in free positions: places that motions carry onto each other.
-pub fn copies(symmetries: &[Symmetry], count: usize, used: &[bool]) -> Vec<Group> {
+pub fn copies(
+    surroundings: &Surroundings<'_>,
+    symmetries: &[Symmetry],
+    used: &[bool],
+) -> Vec<Group> {
+    let count = surroundings.ground.samples.list.len();
+    let tolerance = surroundings.params.patch.copy_tolerance;
+    let quality = |k: &usize| {
+        let s = &symmetries[*k];
+        s.area_fraction * (1.0 - s.rms / tolerance)
+    };
+    let mut ordered: Vec<usize> = (0..symmetries.len()).collect();
+    ordered.retain(|&k| !used[k] && !is_closed(&symmetries[k], surroundings));
+    ordered.sort_by(|a, b| quality(b).total_cmp(&quality(a)));
     let mut places: Vec<Vec<bool>> = Vec::new();
-    let mut links: Vec<(usize, usize, usize)> = Vec::new();
-    for (k, s) in symmetries.iter().enumerate() {
-        if used[k] || is_closed(s, count) {
-            continue;
-        }
+    let mut links: Vec<Link> = Vec::new();
+    for k in ordered {
+        let s = &symmetries[k];
         let mut image = vec![false; count];
         for &i in &s.image {
             image[i as usize] = true;
@@ -45,33 +57,29 @@ pub fn copies(symmetries: &[Symmetry], count: usize, used: &[bool]) -> Vec<Group
     groups
 }
 
-/// The sets of places that links connect, each with its motion from the set's first place.
-fn connected(
-    count: usize,
-    links: &[(usize, usize, usize)],
-) -> Vec<BTreeMap<usize, Vec<(usize, bool)>>> {
-    let mut sets = Vec::new();
-    let mut seen = vec![false; count];
+/// That a symmetry, the third, carries one place to another.
+type Link = (usize, usize, usize);
+
+/// The sets of places that `links` connect, each with the way there from the set's first place: for each place the symmetries,
+/// forwards or backwards, that lead to it. Of all ways those over the best links are taken, which come first among them (Prim):
+/// by a piece of an element others may look like it.
+fn connected(count: usize, links: &[Link]) -> Vec<BTreeMap<usize, Vec<(usize, bool)>>> {
+    let ways = || {
+        let ways = |&(a, b, k): &Link| [(a, b, k, true), (b, a, k, false)];
+        links.iter().flat_map(ways)
+    };
+    let mut sets: Vec<BTreeMap<usize, Vec<(usize, bool)>>> = Vec::new();
     for first in 0..count {
-        if seen[first] {
+        if sets.iter().any(|paths| paths.contains_key(&first)) {
             continue;
         }
-        seen[first] = true;
-        // For each place the symmetries, forwards or backwards, that lead to it.
         let mut paths = BTreeMap::from([(first, Vec::new())]);
-        let mut front = vec![first];
-        while let Some(place) = front.pop() {
-            for &(a, b, k) in links {
-                for (from, to, forwards) in [(a, b, true), (b, a, false)] {
-                    if from == place && !seen[to] {
-                        seen[to] = true;
-                        let mut path: Vec<(usize, bool)> = paths[&place].clone();
-                        path.push((k, forwards));
-                        paths.insert(to, path);
-                        front.push(to);
-                    }
-                }
-            }
+        while let Some((from, to, k, forwards)) =
+            ways().find(|(from, to, ..)| paths.contains_key(from) && !paths.contains_key(to))
+        {
+            let mut path: Vec<(usize, bool)> = paths[&from].clone();
+            path.push((k, forwards));
+            paths.insert(to, path);
         }
         sets.push(paths);
     }
@@ -81,7 +89,7 @@ fn connected(
 fn copies_of(
     members: &BTreeMap<usize, Vec<(usize, bool)>>,
     places: &[Vec<bool>],
-    links: &[(usize, usize, usize)],
+    links: &[Link],
     symmetries: &[Symmetry],
 ) -> Group {
     let along = |path: &Vec<(usize, bool)>| {

@@ -6,6 +6,7 @@ mod rows;
 
 use crate::detect::groups::Group;
 use crate::detect::surroundings::Surroundings;
+use crate::group::{Within, fixed_together};
 use crate::patch::Symmetry;
 use crate::transform::Class;
 
@@ -23,7 +24,7 @@ pub fn arrange(surroundings: &Surroundings<'_>, symmetries: &[Symmetry]) -> Vec<
     let mut used = vec![false; symmetries.len()];
     let mut groups = points::point_groups(surroundings, symmetries, &grounds, &mut used);
     groups.extend(rows::rows(surroundings, symmetries, &mut used));
-    groups.extend(copies::copies(symmetries, count, &used));
+    groups.extend(copies::copies(surroundings, symmetries, &used));
     groups
 }
 
@@ -37,11 +38,21 @@ fn likeness(a: &[bool], b: &[bool]) -> f64 {
     both as f64 / any.max(1) as f64
 }
 
-/// Whether patch and image are one and the same ground.
-fn is_closed(s: &Symmetry, count: usize) -> bool {
+/// Whether patch and image are one and the same ground, and the motion leaves a point of it in its place: the steps of a long row
+/// carry most of it onto itself, too.
+fn is_closed(s: &Symmetry, surroundings: &Surroundings<'_>) -> bool {
+    if s.class == Class::Mirror {
+        return true;
+    }
+    let count = surroundings.ground.samples.list.len();
     let mut image = vec![false; count];
     for &i in &s.image {
         image[i as usize] = true;
     }
-    s.class == Class::Mirror || likeness(&s.membership(count), &image) > SAME_GROUND
+    let within = Within {
+        space: surroundings.space,
+        tolerance: TOLERANCE,
+    };
+    let turns = || !fixed_together(&[s.q_from_p], within).is_empty();
+    likeness(&s.membership(count), &image) > SAME_GROUND && turns()
 }

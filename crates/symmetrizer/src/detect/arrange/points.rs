@@ -3,7 +3,8 @@
 use crate::detect::arrange::{MIN_ORDER, SAME_GROUND, TOLERANCE, is_closed, likeness};
 use crate::detect::groups::Group;
 use crate::detect::surroundings::Surroundings;
-use crate::group::{Within, fixed_together, point_group};
+use crate::geom::Ambient;
+use crate::group::{Name, Within, fixed_together, point_group};
 use crate::patch::Symmetry;
 use crate::transform::{Isometry, TransformSpace};
 
@@ -14,10 +15,9 @@ pub fn point_groups(
     grounds: &[Vec<bool>],
     used: &mut [bool],
 ) -> Vec<Group> {
-    let count = surroundings.ground.samples.list.len();
     let size = |k: usize| grounds[k].iter().filter(|m| **m).count();
     let mut order: Vec<usize> = (0..symmetries.len()).collect();
-    order.retain(|&k| is_closed(&symmetries[k], count));
+    order.retain(|&k| is_closed(&symmetries[k], surroundings));
     order.sort_by_key(|&k| std::cmp::Reverse(size(k)));
     let mut groups = Vec::new();
     let mut seen = vec![false; symmetries.len()];
@@ -91,7 +91,7 @@ fn groups_on(
             used[k] = true;
         }
         groups.push(Group {
-            name: group.name.to_string(),
+            name: named(group.name, surroundings.ground.samples.ambient),
             order: group.elements.len(),
             axis: group.axis,
             point: group.centre,
@@ -103,4 +103,12 @@ fn groups_on(
         });
     }
     groups
+}
+
+/// The name of a group: in the plane D is that of turns with as many lines.
+fn named(name: Name, ambient: Ambient) -> String {
+    match (name, ambient) {
+        (Name::Cv(n), Ambient::Plane) => Name::D(n).to_string(),
+        _ => name.to_string(),
+    }
 }

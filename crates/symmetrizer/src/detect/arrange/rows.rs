@@ -6,6 +6,7 @@ use crate::detect::surroundings::Surroundings;
 use crate::geom::{Point, PointIndex, Vector};
 use crate::group::{Within, patterns};
 use crate::patch::Symmetry;
+use crate::patch::ground::touch_one;
 use crate::transform::Isometry;
 
 /// Rows and grids of the motions that are in no group.
@@ -17,7 +18,7 @@ pub fn rows(
     let samples = surroundings.ground.samples;
     let count = samples.list.len();
     let open: Vec<usize> = (0..symmetries.len())
-        .filter(|&k| !used[k] && !is_closed(&symmetries[k], count))
+        .filter(|&k| !used[k] && !is_closed(&symmetries[k], surroundings))
         .collect();
     let within = Within {
         space: surroundings.space,
@@ -48,10 +49,13 @@ pub fn rows(
             .copied()
             .filter(|&k| is_element(&symmetries[k].q_from_p))
             .collect();
+        let first = first_copy(&members, symmetries, &steps[0], surroundings, count);
+        if !elements.iter().all(|t| is_there(&first, t, surroundings)) {
+            continue;
+        }
         for &k in &members {
             used[k] = true;
         }
-        let first = first_copy(&members, symmetries, &steps[0], surroundings, count);
         groups.push(Group {
             name: pattern.to_string(),
             order,
@@ -98,6 +102,20 @@ fn first_copy(
     (0..count as u32)
         .filter(|&i| starts[i as usize] && !ends[i as usize])
         .collect()
+}
+
+/// Share of the first copy that every other one has at the least.
+const COPIED: f64 = 0.5;
+
+/// Whether `t` carries most of the first `copy` onto the surface: steps that hold between other copies may lead from this one to where there is
+/// none.
+fn is_there(copy: &[u32], t: &Isometry, surroundings: &Surroundings<'_>) -> bool {
+    let patch = &surroundings.params.patch;
+    let near = |s: &&u32| {
+        let ground = surroundings.ground;
+        touch_one(ground, t, **s, patch.copy_tolerance, patch.min_cos).is_some()
+    };
+    copy.iter().filter(near).count() as f64 >= COPIED * copy.len() as f64
 }
 
 fn middle(samples: &[u32], surroundings: &Surroundings<'_>) -> Point {

@@ -4,11 +4,13 @@
 mod panel;
 mod votes;
 
+use crate::cluster::Projection;
 use crate::context::Context;
 use crate::deform::Igarashi;
 use crate::error::Result;
-use crate::job::pictures::plots::plot_title;
-use crate::job::{Detected, Measured, Symmetrized, plane};
+use crate::job::pictures::plots::{self, plot_title};
+use crate::job::{Detected, Measured, Symmetrized};
+use crate::optimize::orbit::{Goal, Orbit};
 use crate::optimize::outcome::mirrors;
 use crate::optimize::schedule::Settings;
 use crate::optimize::{OptimizeParams, optimize};
@@ -17,6 +19,7 @@ use crate::picture::Canvas;
 use crate::picture::canvas::{GREY, INK, Text};
 use crate::shape::wall::Wall;
 use crate::shape::working::Working;
+use crate::transform::Isometry;
 use panel::{Frame, Panel};
 use votes::density;
 
@@ -36,16 +39,12 @@ pub(super) fn before_after(
     let Some(wall) = &job.before.wall else {
         return Ok(None);
     };
+    if let Some(goal) = job.goals.iter().find(|g| !has_lines(g)) {
+        return copies(job, wall, goal, [title, figures]).map(Some);
+    }
     let contracted = contracted(job, wall)?;
     let rows = 1 + u32::from(contracted.is_some()) + u32::from(job.after.is_some());
-    let mut page = Canvas::new(3 * SIDE, HEAD + rows * SIDE);
-    let width = f64::from(page.width()) - 32.0;
-    page.text(Text::new(title, 16.0, 28.0, 20.0).bold().within(width));
-    page.text(
-        Text::new(figures, 16.0, 52.0, 14.0)
-            .colored(GREY)
-            .within(width),
-    );
+    let mut page = titled(rows, [title, figures]);
     let bandwidth = job.report.head.params.cluster.bandwidth;
     let frame = Frame::around(wall);
     let place = |column: u32, row: u32| [column * SIDE, HEAD + row * SIDE];
@@ -91,6 +90,55 @@ pub(super) fn before_after(
     Ok(Some(page))
 }
 
+/// A page of three columns with a title and a line of figures.
+fn titled(rows: u32, [title, figures]: [&str; 2]) -> Canvas {
+    let mut page = Canvas::new(3 * SIDE, HEAD + rows * SIDE);
+    let width = f64::from(page.width()) - 32.0;
+    page.text(Text::new(title, 16.0, 28.0, 20.0).bold().within(width));
+    let figures = Text::new(figures, 16.0, 52.0, 14.0).colored(GREY);
+    page.text(figures.within(width));
+    page
+}
+
+/// Whether there are reflections among what is made exact together, as there are in no row and in no copies.
+fn has_lines(goal: &Goal) -> bool {
+    matches!(&goal.orbit, Orbit::Group(elements) if elements.iter().any(Isometry::is_improper))
+}
+
+/// The run of a drawing whose copies were made alike: input above result, each with the first copy carried onto the others and
+/// the votes for such motions.
+fn copies(job: &Symmetrized, wall: &Wall, goal: &Goal, titles: [&str; 2]) -> Result<Canvas> {
+    let states = std::iter::once((&job.before, ["input, one copy on the others", "before"]));
+    let after = job.after.as_ref();
+    let states = states.chain(after.map(|s| (s, ["result, one copy on the others", "after"])));
+    let mut page = titled(1 + u32::from(after.is_some()), titles);
+    let frame = Frame::around(wall);
+    let mut members = job.before.symmetries().iter();
+    let member = members.find(|s| goal.symmetries.contains(&s.id));
+    let mut clouds = job.before.detection.clouds.iter();
+    let cloud = clouds.position(|c| member.is_some_and(|s| s.class == c.class));
+    let body = Igarashi::new(wall.clone())?;
+    for (row, (state, captions)) in (0..).zip(states) {
+        let Some(moved) = &state.wall else { continue };
+        let place = |column: u32| [column * SIDE, HEAD + row * SIDE];
+        let mut panel = Panel::new(&mut page, place(0), frame, captions[0]);
+        panel.copies(&job.before, moved, goal);
+        if let Some(cloud) = cloud {
+            let points = job.before.detection.clouds[cloud].votes.points();
+            let votes = plots::Votes::new(state, cloud, &job.before, &Projection::new(points));
+            let bandwidth = job.report.head.params.cluster.bandwidth;
+            let [x, y] = place(1);
+            votes
+                .plot(bandwidth, None, captions[1])
+                .draw(&mut page, x, y, SIDE);
+        }
+        let inside = body.filled(&state.working.surface.positions)?;
+        let mut panel = Panel::new(&mut page, place(2), frame, "");
+        panel.mesh(&body.sheet().surface.triangles, &inside);
+    }
+    Ok(page)
+}
+
 /// The state of figure 2 between input and result, where the result went another way: a bent shape whose lines have
 /// been contracted, each for the part that it holds for, and not been merged.
 fn contracted(job: &Symmetrized, wall: &Wall) -> Result<Option<Detected>> {
@@ -99,7 +147,7 @@ fn contracted(job: &Symmetrized, wall: &Wall) -> Result<Option<Detected>> {
         return Ok(None);
     }
     let params = &job.report.head.params;
-    let detect = plane::sought(params);
+    let detect = params.detect().mirrors_only();
     let settings = Settings {
         wall: Some(wall),
         stiffness: None,

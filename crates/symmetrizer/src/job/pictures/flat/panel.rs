@@ -4,6 +4,7 @@ use crate::geom::{Point, Vector};
 use crate::job::Detected;
 use crate::job::pictures::color;
 use crate::job::pictures::flat::SIDE;
+use crate::optimize::orbit::Goal;
 use crate::optimize::outcome::mirrors;
 use crate::picture::canvas::{GREY, INK, Text};
 use crate::picture::{Canvas, checks};
@@ -149,6 +150,26 @@ impl<'a> Panel<'a> {
                 self.page.circle(self.at(&x), 1.5, 1.5, color(s.id));
             }
             self.line(&s.plane(), color(s.id), 1.5);
+        }
+    }
+
+    /// The shape with the places of a `goal` in a colour each, and the first carried onto the others.
+    pub fn copies(&mut self, found: &Detected, wall: &Wall, goal: &Goal) {
+        self.outline(wall);
+        let list = &found.detection.samples.list;
+        let place = |i: &u32| wall.surface.point(&list[*i as usize].at);
+        for (k, places) in (0..).zip(&goal.places) {
+            for i in places {
+                self.page.circle(self.at(&place(i)), 1.5, 1.5, color(k));
+            }
+        }
+        for link in goal.links(0).first().into_iter().flatten() {
+            for i in &goal.places[link.from] {
+                let image = self.at(&link.t.apply(&place(i)));
+                if self.holds(&image) {
+                    self.page.circle(image, 0.5, 0.8, IMAGE);
+                }
+            }
         }
     }
 
