@@ -105,7 +105,7 @@ fn first_copy(
 }
 
 /// Share of the first copy that every other one has at the least.
-const COPIED: f64 = 0.5;
+const COPIED: f64 = 0.8;
 
 /// Whether `t` carries most of the first `copy` onto the surface: steps that hold between other copies may lead from this one to where there is
 /// none.
