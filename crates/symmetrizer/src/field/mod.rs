@@ -113,6 +113,18 @@ impl SymmetryField {
         }
     }
 
+    /// The same with the partners and local isometries of `others` where it has no partners.
+    pub fn or(&self, others: &Self) -> Self {
+        let mut all = self.clone();
+        for (s, q) in others.partners.iter().enumerate() {
+            if all.partners[s].is_none() {
+                all.partners[s] = *q;
+                all.maps[s] = others.maps[s];
+            }
+        }
+        all
+    }
+
     /// The same with every partner at the nearest place of another copy of the surface.
     pub fn placed_on(&self, closest: &ClosestPoint) -> Self {
         let placed = |q: &Partner| {

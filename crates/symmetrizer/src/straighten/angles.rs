@@ -21,13 +21,19 @@ const FAR: f64 = 0.3;
 /// What is added to the diagonal: parts without pairs stay as they are.
 const RIDGE: f64 = 1e-6;
 
-/// The rotation of each sample.
+/// The rotation of each sample. Where the field has no pairs, as in the middle of a tail that is not trusted there, whole turns
+/// are counted over those of `others`.
 ///
 /// # Errors
 /// [`SolveError`].
-pub fn solved(land: &Land<'_>, field: &SymmetryField) -> Result<Vec<Matrix3>, SolveError> {
-    let mut pairs = pairs(field);
+pub fn solved(
+    land: &Land<'_>,
+    field: &SymmetryField,
+    others: &SymmetryField,
+) -> Result<Vec<Matrix3>, SolveError> {
+    let mut pairs = pairs(&field.or(others));
     unwind(land, &mut pairs, field.partners.len());
+    pairs.retain(|pair| field.partners[pair.of[0]].is_some());
     let mut angles = vec![0.0; field.partners.len()];
     for round in 0..ROUNDS {
         if round > 0 {

@@ -95,7 +95,8 @@ impl Bend {
             }
             Verdict::Uncertain | Verdict::Accept => settled.of(&trust.trusted),
         };
-        let turns = rotations::solved(land, &field, Evenness::AtLast)?;
+        let others = settled.or(&grown);
+        let turns = rotations::solved(land, (&field, &others), Evenness::AtLast)?;
         let degrees = span(&shared(&turns, &field));
         Ok(Some(Self {
             settled,

@@ -45,16 +45,16 @@ pub enum Evenness {
     AtLast,
 }
 
-/// The rotation of each sample.
+/// The rotation of each sample; in the plane turns are counted with `others` where the field has no pairs.
 ///
 /// # Errors
 /// [`Error::Numerical`].
 pub fn solved(
     land: &Land<'_>,
-    field: &SymmetryField,
+    (field, others): (&SymmetryField, &SymmetryField),
     evenness: Evenness,
 ) -> Result<Vec<Matrix3>, Error> {
-    rotations(land, field, evenness).map_err(|_| Error::Numerical {
+    rotations(land, (field, others), evenness).map_err(|_| Error::Numerical {
         stage: "straighten",
         step: 0,
         what: "the rotation field could not be solved for".into(),
@@ -63,11 +63,11 @@ pub fn solved(
 
 fn rotations(
     land: &Land<'_>,
-    field: &SymmetryField,
+    (field, others): (&SymmetryField, &SymmetryField),
     evenness: Evenness,
 ) -> Result<Vec<Matrix3>, SolveError> {
     if land.samples.ambient == Ambient::Plane {
-        return angles::solved(land, field);
+        return angles::solved(land, field, others);
     }
     let rows = |s, wanted| rows(land, field, evenness, s, wanted);
     let (first, others) = rayon::join(|| rows(-1.0, 1), || rows(1.0, 2));

@@ -121,7 +121,7 @@ fn moved(before: &[Option<Meeting>], after: &[Option<Meeting>]) -> f64 {
 impl<'a> Settling<'a> {
     /// Begins with what `field` says by itself.
     fn new(land: &'a Land<'a>, field: &SymmetryField) -> Result<Self> {
-        let turns = rotations::solved(land, field, Evenness::AtFirst)?;
+        let turns = rotations::solved(land, (field, field), Evenness::AtFirst)?;
         let begun = solve(land, field, &turns)?;
         let begun = land.surface.with_positions(begun);
         let samples = land.samples.list.iter().zip(turns);
