@@ -103,8 +103,10 @@ const FINEST: f64 = 1e-5;
 const COARSEST: f64 = 2e-3;
 const PARTS: usize = 200;
 
-/// A drawing is to lose this share of its asymmetry at the least, or it is left.
+/// A drawing is to lose this share of its asymmetry at the least, and to come as near to symmetric as this, % of D, or it is left: those
+/// that come out right are within .06.
 const BETTER: f64 = 0.5;
+const NEAR: f64 = 0.15;
 /// Asymmetry, % of D, that may come and go.
 const FLOOR: f64 = 0.01;
 
@@ -115,7 +117,7 @@ pub(super) fn give_up_on_worse(job: &mut Symmetrized, ctx: &mut Context<'_>) {
         return;
     };
     let before = job.report.input.shape.mean_asymmetry();
-    let worse = result.asymmetry.mean > BETTER * before + FLOOR;
+    let worse = result.asymmetry.mean > (BETTER * before + FLOOR).min(NEAR);
     let crossed = result.distortion.new_crossings;
     if asked_for(job) {
         if crossed > 0 {
@@ -128,7 +130,7 @@ pub(super) fn give_up_on_worse(job: &mut Symmetrized, ctx: &mut Context<'_>) {
     if worse || crossed > 0 {
         ctx.warn(format!(
             "the drawing is left as it is: made symmetric, {} ({:.2} % of D from symmetric, was {before:.2})",
-            if crossed > 0 { "it would cross itself" } else { "it would hardly be more so" },
+            if crossed > 0 { "it would cross itself" } else { "it would be little more so" },
             result.asymmetry.mean
         ));
         let shape = corners(wall);
