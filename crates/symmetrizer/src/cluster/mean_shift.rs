@@ -50,6 +50,14 @@ pub struct Votes {
 
 const LEADING: usize = 6;
 
+/// Steps of a climb at the most, and the last step's length in units of the kernel's radius: where modes are told apart, and at
+/// the end.
+const STEPS: usize = 50;
+const NEARLY: f64 = 1e-2;
+const AT_REST: f64 = 1e-4;
+/// With fewer votes within the kernel's radius a place is no start: a mode of as many as a symmetry has is higher elsewhere.
+const SOME: usize = 3;
+
 impl Votes {
     /// Embeds the pairs' transformations in `space`.
     pub fn new(pairs: &[Pair], space: &TransformSpace) -> Self {
@@ -103,29 +111,23 @@ impl Votes {
     }
 
     /// All modes, highest first: mean shift from every vote on a coarse net, modes closer than h
-    /// made one.
+    /// made one; those that are left are climbed to the end.
     pub fn clusters(&self, params: &ClusterParams) -> Vec<Cluster> {
         let h = params.bandwidth;
-        let modes: Vec<Option<Cluster>> = self
-            .starts(h)
+        let starts = self.starts(h);
+        let near = starts
             .into_par_iter()
-            .map(|start| self.climb(self.phi[start], h))
-            .collect();
-        let mut modes: Vec<Cluster> = modes.into_iter().flatten().collect();
-        modes.sort_by(|a, b| b.height.total_cmp(&a.height));
-        let mut kept: Vec<Cluster> = Vec::new();
-        for m in modes {
-            if kept.iter().all(|k| (k.mode - m.mode).norm() > h) {
-                kept.push(m);
-            }
-        }
-        kept
+            .map(|start| self.climb(self.phi[start], h, NEARLY));
+        let near = apart(near.flatten().collect(), h);
+        let modes = near.into_par_iter().map(|m| self.climb(m.mode, h, AT_REST));
+        apart(modes.flatten().collect(), h)
     }
 
-    /// Mean shift from `start` with kernel radius `h`; `None` where no vote is left near it.
-    fn climb(&self, start: Phi, h: f64) -> Option<Cluster> {
+    /// Mean shift from `start` with kernel radius `h` until it moves by less than `rest` of that; `None` where no vote is left
+    /// near it.
+    fn climb(&self, start: Phi, h: f64, rest: f64) -> Option<Cluster> {
         let mut mode = start;
-        for _ in 0..50 {
+        for _ in 0..STEPS {
             let near = self.within(&mode, h);
             let total: f64 = near.iter().map(|&(i, _)| self.weights[i as usize]).sum();
             if total <= 0.0 {
@@ -137,7 +139,7 @@ impl Votes {
                 .sum::<Phi>();
             let moved = (mean - mode).norm();
             mode = mean;
-            if moved < 1e-4 * h {
+            if moved < rest * h {
                 break;
             }
         }
@@ -159,8 +161,8 @@ impl Votes {
         })
     }
 
-    /// Where to climb from: of one vote per cell of side h/2 those that none of the others within h/2
-    /// exceeds in density. In fewer axes than the six of a motion a cell would hold several modes.
+    /// Where to climb from: of one vote per cell of side h/2 those that have some votes around them and that none of the others
+    /// within h/2 exceeds in density. In fewer axes than the six of a motion a cell would hold several modes.
     fn starts(&self, h: f64) -> Vec<usize> {
         let mut cells = BTreeMap::new();
         let origin = self.axes * self.phi.iter().sum::<Phi>() / self.phi.len().max(1) as f64;
@@ -173,14 +175,14 @@ impl Votes {
         }
         let net: Vec<usize> = cells.into_values().collect();
         let mut density = vec![f64::NEG_INFINITY; self.phi.len()];
-        let at: Vec<f64> = net
-            .par_iter()
-            .map(|&i| self.density(&self.phi[i], h))
-            .collect();
+        let at: Vec<Option<f64>> = net.par_iter().map(|&i| self.crowded(i, h)).collect();
         for (&i, d) in net.iter().zip(at) {
-            density[i] = d;
+            density[i] = d.unwrap_or(f64::NEG_INFINITY);
         }
         let highest = |&i: &usize| {
+            if density[i] == f64::NEG_INFINITY {
+                return false;
+            }
             let near = self.within(&self.phi[i], 0.5 * h);
             let higher = |&(k, _): &(u32, f64)| {
                 let k = k as usize;
@@ -189,6 +191,16 @@ impl Votes {
             !near.iter().any(higher)
         };
         net.into_par_iter().filter(highest).collect()
+    }
+
+    /// The density at a vote with some others within h; `None` at one that has hardly any.
+    fn crowded(&self, vote: usize, h: f64) -> Option<f64> {
+        let near = self.within(&self.phi[vote], h);
+        let count = near.iter().filter(|(i, _)| self.weights[*i as usize] > 0.0);
+        let density = near
+            .iter()
+            .map(|&(i, d2)| self.weights[i as usize] * (1.0 - d2 / (h * h)));
+        (count.count() >= SOME).then(|| density.sum())
     }
 
     /// Votes within `h` of `x` with their squared distances, in the order of the index.
@@ -200,6 +212,18 @@ impl Votes {
             .filter(|&(_, d2)| d2 < h * h)
             .collect()
     }
+}
+
+/// The highest of `modes`, the highest first, and of those closer than `h` to it none.
+fn apart(mut modes: Vec<Cluster>, h: f64) -> Vec<Cluster> {
+    modes.sort_by(|a, b| b.height.total_cmp(&a.height));
+    let mut kept: Vec<Cluster> = Vec::new();
+    for m in modes {
+        if kept.iter().all(|k| (k.mode - m.mode).norm() > h) {
+            kept.push(m);
+        }
+    }
+    kept
 }
 
 /// [`Votes::density`] of `pairs` at one point only, for which an index would not pay.

@@ -34,9 +34,9 @@ pub fn unlikeness(
         .par_iter()
         .filter_map(|pair| {
             let s = &list[pair.sample as usize];
-            let partner = describer.sample(&pair.partner);
-            let turn = partner.frame.angle_of(&t.rotate(&s.frame.e1));
-            s.relief.gap_at(&partner.relief, t.is_improper(), turn)
+            let (frame, relief) = describer.relief(&pair.partner);
+            let turn = frame.angle_of(&t.rotate(&s.frame.e1));
+            s.relief.gap_at(&relief, t.is_improper(), turn)
         })
         .collect();
     median(&mut gaps).unwrap_or(std::f64::consts::SQRT_2)

@@ -10,7 +10,7 @@ use crate::geom::{Ambient, Point, PointIndex, Vector, any_orthogonal};
 use crate::sample::blue_noise::blue_noise;
 use crate::sample::crisp::Corners;
 use crate::sample::relief::{Frame, Harmonics, Relief};
-use crate::sample::signature::{Signature, base_radius, describe};
+use crate::sample::signature::{Signature, base_radius, describe, normal};
 use crate::sample::{outline, profile};
 use crate::shape::ClosestPoint;
 use crate::shape::curvature::Cloud;
@@ -155,11 +155,7 @@ impl<'a> Describer<'a> {
             cloud,
             corners,
             harmonics,
-        } = self.fitted.get_or_init(|| Fitted {
-            cloud: Cloud::new(self.surface, self.r0 / 4.0),
-            corners: Corners::new(self.surface),
-            harmonics: Harmonics::new(),
-        });
+        } = self.fitted();
         let (signature, e1, n) = describe(self.surface, cloud, at, self.r0);
         let frame = Frame {
             n,
@@ -176,6 +172,32 @@ impl<'a> Describer<'a> {
             frame,
             relief: harmonics.relief(cloud, &position, &frame, self.r0),
         }
+    }
+
+    /// The frame and the relief of the sample at a surface point, for which less is fitted.
+    pub fn relief(&self, at: &SurfacePoint) -> (Frame, Relief) {
+        if let Some(wall) = self.wall {
+            let sample = self.on_outline(wall, at);
+            return (sample.frame, sample.relief);
+        }
+        let Fitted {
+            cloud, harmonics, ..
+        } = self.fitted();
+        let x = self.surface.point(at);
+        let n = normal(self.surface, cloud, at, self.r0);
+        let frame = Frame {
+            n,
+            e1: any_orthogonal(&n),
+        };
+        (frame, harmonics.relief(cloud, &x, &frame, self.r0))
+    }
+
+    fn fitted(&self) -> &Fitted {
+        self.fitted.get_or_init(|| Fitted {
+            cloud: Cloud::new(self.surface, self.r0 / 4.0),
+            corners: Corners::new(self.surface),
+            harmonics: Harmonics::new(),
+        })
     }
 
     /// The sample at a point of an outline.

@@ -62,6 +62,13 @@ pub fn describe(
     (Signature(signature), e1, middle.map_or(n, |k| k.normal))
 }
 
+/// The normal that [`describe`] gives.
+pub fn normal(surface: &Surface, cloud: &Cloud, at: &SurfacePoint, r0: f64) -> Vector {
+    let n = surface.normal(at);
+    let fit = cloud.fit(&surface.point(at), &n, 2.0 * r0);
+    fit.map_or(n, |k| k.normal)
+}
+
 /// Below this share of a full disc the ball hangs over a boundary.
 const MIN_COVERAGE: f64 = 0.6;
 
