@@ -7,6 +7,7 @@ use crate::patch::ground::{Ground, contacts, image};
 use crate::patch::likeness::unlikeness;
 use crate::patch::params::PatchParams;
 use crate::patch::refine::{Contact, firmness};
+use crate::patch::settle::passing;
 use crate::patch::symmetry::{PatchPair, Symmetry};
 use crate::sample::Sample;
 use crate::sample::samples::Describer;
@@ -134,10 +135,7 @@ impl Judged {
         let slack = if firm { slack } else { 1.0 };
         let drift = (self.filled / params.max_filled).max(rim(ground, grown) / params.max_rim);
         if drift > slack {
-            return Err(format!(
-                "its image passes by the surface rather than lies on it (rms {:.2} of the tolerance)",
-                self.filled
-            ));
+            return Err(passing(self.filled));
         }
         let unlikeness = unlikeness(ground, describer, &grown.t, &grown.pairs);
         if unlikeness > slack * params.max_unlikeness {

@@ -71,6 +71,9 @@ const WELL: f64 = 0.4;
 const HOPEFUL: f64 = 0.8;
 /// Rounds of settling at the most.
 const SETTLING: usize = 12;
+/// The round after which a motion is refused that fills the tolerance to so many times what a symmetry does at the most.
+const PASSING: usize = 2;
+const PASSES: f64 = 1.25;
 /// Settled: contacts move by less than this from round to round, fraction of L.
 const SETTLED: f64 = 2e-5;
 
@@ -134,13 +137,21 @@ fn settle(
     }
     let last = rounds.last().map_or(1.0, |r| r.tolerance) * tolerance;
     let mut spread = 0.0;
-    for _ in 0..SETTLING {
+    for round in 0..SETTLING {
         let grown = reach(ground, &t, last, params.min_cos, candidate, u32::MAX);
         if grown.is_empty() {
             return Err(NOWHERE.into());
         }
         hopeful(ground, &grown, params.least_area(*class))?;
         spread = scale(&grown, seeds, 0.25);
+        if round == PASSING && *class != Class::Mirror && !candidate.near {
+            let filled = filled(&grown, tolerance);
+            // What holds better where it holds best ends before.
+            let ends = params.end_of(*class) * spread < tolerance;
+            if !ends && filled > PASSES * params.max_filled {
+                return Err(passing(filled));
+            }
+        }
         let mut contacts = contacts(ground, &grown);
         weigh(&t, &mut contacts, spread);
         let next = refine(&t, *class, &contacts);
@@ -154,6 +165,19 @@ fn settle(
         }
     }
     Ok(Settled { t, spread })
+}
+
+/// The rms residual of what has grown to a tolerance, in units of that.
+fn filled(grown: &[PatchPair], tolerance: f64) -> f64 {
+    let squares = grown.iter().map(|p| p.residual.powi(2));
+    (squares.sum::<f64>() / grown.len().max(1) as f64).sqrt() / tolerance
+}
+
+/// Why a motion is refused whose patch fills the tolerance to this share.
+pub fn passing(filled: f64) -> String {
+    format!(
+        "its image passes by the surface rather than lies on it (rms {filled:.2} of the tolerance)"
+    )
 }
 
 /// Refuses what has not come near the area of a patch: most candidates have not, and to settle them is

@@ -71,8 +71,8 @@ pub struct Alignment {
     pub gap: f64,
 }
 
-/// The radial polynomials, orthonormal under the weight, by powers of rho.
-pub struct Harmonics([Vec<Vec<(usize, f64)>>; ORDERS + 1]);
+/// The 15 functions of the fit as polynomials: a row for each of x^(n - k) y^k, n up to 4.
+pub struct Harmonics(SMatrix<f64, UNKNOWNS, UNKNOWNS>);
 
 impl Default for Harmonics {
     fn default() -> Self {
@@ -80,57 +80,123 @@ impl Default for Harmonics {
     }
 }
 
+/// The row of x^i y^j among the monomials.
+fn monomial(i: usize, j: usize) -> usize {
+    let n = i + j;
+    n * (n + 1) / 2 + j
+}
+
+/// For each m the radial polynomials, orthonormal under the weight, by powers of rho: Gram-Schmidt over rho^m, rho^(m+2),
+/// .. up to degree 4.
+fn radial() -> [Vec<Vec<(usize, f64)>>; ORDERS + 1] {
+    std::array::from_fn(|m| {
+        let mut basis: Vec<Vec<(usize, f64)>> = Vec::new();
+        for power in (m..=ORDERS).step_by(2) {
+            let mut new = vec![(power, 1.0)];
+            for old in &basis {
+                let along = inner(m, &new, old);
+                new.extend(old.iter().map(|&(k, a)| (k, -along * a)));
+            }
+            let norm = inner(m, &new, &new).sqrt();
+            new.iter_mut().for_each(|(_, a)| *a /= norm);
+            basis.push(new);
+        }
+        basis
+    })
+}
+
+/// rho^k e^(i m theta) by monomials: (x^2 + y^2)^((k - m) / 2) (x + i y)^m.
+fn spread(k: usize, m: usize) -> [Complex<f64>; UNKNOWNS] {
+    let mut all = [Complex::new(0.0, 0.0); UNKNOWNS];
+    all[0] = Complex::new(1.0, 0.0);
+    let times = |all: [Complex<f64>; UNKNOWNS], factor: &[(usize, usize, Complex<f64>)]| {
+        let mut product = [Complex::new(0.0, 0.0); UNKNOWNS];
+        for (i, j) in (0..=ORDERS).flat_map(|n| (0..=n).map(move |j| (n - j, j))) {
+            for &(di, dj, c) in factor {
+                let (i, j, from) = (i + di, j + dj, all[monomial(i, j)]);
+                if i + j <= ORDERS {
+                    product[monomial(i, j)] += from * c;
+                }
+            }
+        }
+        product
+    };
+    let (one, i) = (Complex::new(1.0, 0.0), Complex::new(0.0, 1.0));
+    for _ in 0..m {
+        all = times(all, &[(1, 0, one), (0, 1, i)]);
+    }
+    for _ in 0..(k - m) / 2 {
+        all = times(all, &[(2, 0, one), (0, 2, one)]);
+    }
+    all
+}
+
+/// Weighted sums of x^p y^q over points, p + q up to twice the degree, and of h x^i y^j: all that a fit of a polynomial needs.
+struct Moments {
+    of: [[f64; 2 * ORDERS + 1]; 2 * ORDERS + 1],
+    height: [f64; UNKNOWNS],
+}
+
+impl Moments {
+    fn new() -> Self {
+        Self {
+            of: [[0.0; 2 * ORDERS + 1]; 2 * ORDERS + 1],
+            height: [0.0; UNKNOWNS],
+        }
+    }
+
+    fn add(&mut self, [x, y]: [f64; 2], h: f64, weight: f64) {
+        let mut powers = [1.0; 2 * ORDERS + 1];
+        for k in 1..powers.len() {
+            powers[k] = powers[k - 1] * x;
+        }
+        let mut w = weight;
+        for (j, row) in self.of.iter_mut().enumerate() {
+            let count = powers.len() - j;
+            for (sum, x) in row[..count].iter_mut().zip(&powers) {
+                *sum += w * x;
+            }
+            if j <= ORDERS {
+                for i in 0..=ORDERS - j {
+                    self.height[monomial(i, j)] += w * h * powers[i];
+                }
+            }
+            w *= y;
+        }
+    }
+
+    /// The matrix of the sums of products of monomials.
+    fn matrix(&self) -> SMatrix<f64, UNKNOWNS, UNKNOWNS> {
+        let all = || (0..=ORDERS).flat_map(|n| (0..=n).map(move |j| (n - j, j)));
+        let mut matrix = SMatrix::zeros();
+        for (a, (i, j)) in all().enumerate() {
+            for (b, (k, l)) in all().enumerate() {
+                matrix[(a, b)] = self.of[j + l][i + k];
+            }
+        }
+        matrix
+    }
+}
+
 impl Harmonics {
-    /// Gram-Schmidt over rho^m, rho^(m+2), .. up to degree 4.
+    /// The functions, as the powers of e^(i theta) come: one for m = 0, the real and the imaginary part for others.
     pub fn new() -> Self {
-        Self(std::array::from_fn(|m| {
-            let mut basis: Vec<Vec<(usize, f64)>> = Vec::new();
-            for power in (m..=ORDERS).step_by(2) {
-                let mut new = vec![(power, 1.0)];
-                for old in &basis {
-                    let along = inner(m, &new, old);
-                    new.extend(old.iter().map(|&(k, a)| (k, -along * a)));
-                }
-                let norm = inner(m, &new, &new).sqrt();
-                new.iter_mut().for_each(|(_, a)| *a /= norm);
-                basis.push(new);
-            }
-            basis
-        }))
-    }
-
-    fn radial(&self, m: usize, j: usize, powers: &[f64; ORDERS + 1]) -> f64 {
-        self.0[m][j].iter().map(|&(k, a)| a * powers[k]).sum()
-    }
-
-    /// Values of all 15 functions at a point of the unit disc.
-    fn row(&self, x: f64, y: f64) -> SVector<f64, UNKNOWNS> {
-        let rho = (x * x + y * y).sqrt();
-        let turn = if rho > 0.0 {
-            Complex::new(x / rho, y / rho)
-        } else {
-            Complex::new(1.0, 0.0)
-        };
-        let mut powers = [1.0; ORDERS + 1];
-        for k in 1..=ORDERS {
-            powers[k] = powers[k - 1] * rho;
-        }
-        let mut row = SVector::zeros();
+        let mut rows = SMatrix::zeros();
         let mut at = 0;
-        let mut phase = Complex::new(1.0, 0.0);
-        for m in 0..=ORDERS {
-            for j in 0..self.0[m].len() {
-                let radial = self.radial(m, j, &powers);
-                row[at] = radial * phase.re;
-                at += 1;
-                if m > 0 {
-                    row[at] = radial * phase.im;
-                    at += 1;
+        for (m, basis) in radial().iter().enumerate() {
+            for function in basis {
+                for &(k, a) in function {
+                    for (row, c) in spread(k, m).iter().enumerate() {
+                        rows[(row, at)] += a * c.re;
+                        if m > 0 {
+                            rows[(row, at + 1)] += a * c.im;
+                        }
+                    }
                 }
+                at += if m > 0 { 2 } else { 1 };
             }
-            phase *= turn;
         }
-        row
+        Self(rows)
     }
 
     /// The relief at `x` in `frame` at the radii r0, 2 r0, 4 r0.
@@ -142,15 +208,12 @@ impl Harmonics {
 
     fn fit(&self, cloud: &Cloud, x: &Point, frame: &Frame, radius: f64) -> Option<Harmonic> {
         let e2 = frame.e2();
-        let mut a = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::zeros();
-        let mut b = SVector::<f64, UNKNOWNS>::zeros();
+        let mut moments = Moments::new();
         let (mut area, mut used) = (0.0, 0);
         cloud.each_facing(x, &frame.n, radius, |offset, weight| {
             let v = offset / radius;
-            let row = self.row(v.dot(&frame.e1), v.dot(&e2));
             let w = weight * (1.0 - v.norm_squared()).max(0.0);
-            a.syger(w, &row, &row, 1.0);
-            b.axpy(w * v.dot(&frame.n), &row, 1.0);
+            moments.add([v.dot(&frame.e1), v.dot(&e2)], v.dot(&frame.n), w);
             area += weight;
             used += 1;
         });
@@ -158,6 +221,9 @@ impl Harmonics {
         if used < MIN_POINTS || area < MIN_COVERAGE * disc {
             return None;
         }
+        let functions = self.0.transpose();
+        let mut a = functions * moments.matrix() * self.0;
+        let b = functions * SVector::from(moments.height);
         for k in 0..UNKNOWNS {
             a[(k, k)] += RIDGE * area;
         }
