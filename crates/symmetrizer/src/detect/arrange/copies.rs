@@ -12,6 +12,9 @@ use crate::transform::Isometry;
 /// Two places of copies are one when this share of both together lies in both.
 const SAME_COPY: f64 = 0.5;
 
+/// A smaller set of which more than this share lies in a place is a piece of that.
+const PIECE: f64 = 0.7;
+
 /// Copies of one element in free positions: places that motions carry onto each other.
 pub fn copies(
     surroundings: &Surroundings<'_>,
@@ -39,7 +42,11 @@ pub fn copies(
         if likeness(&patch, &image) > 0.2 {
             continue;
         }
-        let ends = [patch, image].map(|set| {
+        let sets = [patch, image];
+        if sets.iter().any(|set| is_piece(set, &places)) {
+            continue;
+        }
+        let ends = sets.map(|set| {
             let known = places.iter().position(|p| likeness(p, &set) > SAME_COPY);
             known.unwrap_or_else(|| {
                 places.push(set);
@@ -55,6 +62,16 @@ pub fn copies(
         .collect();
     groups.sort_by_key(|g| std::cmp::Reverse(g.orbit.iter().map(Vec::len).sum::<usize>()));
     groups
+}
+
+/// Whether a set of samples is a piece of one of the `places`, and not that itself.
+fn is_piece(set: &[bool], places: &[Vec<bool>]) -> bool {
+    let count = set.iter().filter(|s| **s).count();
+    let of = |place: &Vec<bool>| {
+        let inside = set.iter().zip(place).filter(|(s, p)| **s && **p).count();
+        inside as f64 > PIECE * count as f64 && likeness(place, set) <= SAME_COPY
+    };
+    places.iter().any(of)
 }
 
 /// That a symmetry, the third, carries one place to another.

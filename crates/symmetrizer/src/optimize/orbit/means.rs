@@ -32,6 +32,7 @@ pub struct Scene<'a> {
 }
 
 /// The means of all orbits.
+#[derive(Clone)]
 pub struct Means {
     /// For each point the way to the mean of its copies.
     pub targets: Vec<Vector>,
@@ -84,6 +85,11 @@ impl Tally {
     /// rms distance of the copies from the surface, fraction of L.
     pub fn rms(&self) -> f64 {
         (self.found[2] / self.found[0].max(f64::MIN_POSITIVE)).sqrt()
+    }
+
+    /// Mean distance of the copies from the surface, fraction of L.
+    fn mean(&self) -> f64 {
+        self.found[1] / self.found[0].max(f64::MIN_POSITIVE)
     }
 
     /// rms displacement of its places by which equation 1 meets it, fraction of L: without what the flat faces of a
@@ -139,6 +145,17 @@ impl Means {
         let pursued = || self.tallies.iter().filter(|t| !t.is_met);
         let sum = |k: usize| pursued().map(|t| t.found[k]).sum::<f64>();
         sum(1) / sum(0).max(f64::MIN_POSITIVE)
+    }
+}
+
+impl Means {
+    /// Whether a goal that is pursued has come nearer than it was in the means `before`, to less than `share` of its distance, and
+    /// all together have not gone away.
+    pub fn gained(&self, before: &Self, share: f64) -> bool {
+        let pairs = self.tallies.iter().zip(&before.tallies);
+        let mut pursued = pairs.filter(|(now, _)| !now.is_met);
+        let nearer = pursued.any(|(now, was)| now.mean() < share * was.mean());
+        nearer && self.distance() < before.distance()
     }
 }
 

@@ -244,11 +244,11 @@ impl Cloth {
         // Round by round, so that what would cross goes back by one round only.
         let (next, _) = untangle(&self.now, self.unfolded(next));
         let (was, goals) = (self.now.clone(), self.goals.clone());
-        let before = means.distance();
+        let before = self.means.clone();
         self.round += 1;
         self.go_to(next);
         self.refit();
-        if self.means.distance() < STALLED * before {
+        if self.means.gained(&before, STALLED) {
             self.taken += 1;
             return Ok(true);
         }

@@ -21,12 +21,19 @@ const FLOOR: f64 = 7e-4;
 /// measured, or than this, fraction of L: the rest is the flat faces of a curved surface and what nobody sees.
 const FLAT: f64 = 0.3;
 const EXACT: f64 = 5e-5;
+/// A goal that is this near to being met, fraction of L, is let be for one that it touches and that is further by this factor.
+const QUIET: f64 = 4e-4;
+const LOUDER: f64 = 3.0;
+/// They have this share of the smaller one's samples in common at the least: the ground that elements stand on is its rim.
+const TOUCHING: f64 = 0.02;
 /// Goals that find fewer of their copies than this share are let be: short extrusions, of which a shift leaves little,
 /// and what only begins to come again.
 const HELD: f64 = 0.5;
 /// A goal that keeps this share of its residual gains nothing worth the change: it is as exact as its triangles let it
 /// be.
 const GAINED: f64 = 0.9;
+/// A goal that was met and is further now by this factor, and by more than [`FLOOR`], was spoiled by others.
+const SPOILED: f64 = 2.0;
 /// Goals share ground where this share of the smaller one's samples is in both.
 const SHARED: f64 = 0.2;
 
@@ -87,6 +94,10 @@ fn made(
         let exact = before.halves[k] < (FLAT * before.rms[k]).max(EXACT);
         goal.is_met = exact || before.held[k] < HELD;
     }
+    let quiet = quiet(&before, goals);
+    for (goal, quiet) in before.goals.iter_mut().zip(quiet) {
+        goal.is_met |= quiet;
+    }
     let open = || (0..goals.len()).filter(|&k| !before.goals[k].is_met);
     let mut body = ctx.stage("prepare", |_| prepared(surface, settings))?;
     let steps = match open().any(|k| before.rms[k] > ROUGH) {
@@ -135,22 +146,46 @@ fn made(
     })
 }
 
-/// A goal to give up, the last one first: it gains nothing, or it is not met and one that was wanted more, which has
-/// this name, lies on the same ground.
+/// Which of the `goals` are so nearly met that they are let be for others on the same ground that are not: a plate that is exact but
+/// for its triangles would only hold the elements on it.
+fn quiet(before: &Fitted, goals: &[Goal]) -> Vec<bool> {
+    let open = |k: usize| !before.goals[k].is_met;
+    let is_louder = |k: usize, other: usize| {
+        let louder = open(other) && before.rms[other] > LOUDER * before.rms[k];
+        louder && shared(&goals[k], &goals[other]) >= TOUCHING
+    };
+    let all = 0..goals.len();
+    let quiet = |k| before.rms[k] < QUIET && all.clone().any(|other| is_louder(k, other));
+    all.clone().map(quiet).collect()
+}
+
+/// A goal to give up: one that gains nothing, those first that are as exact as their triangles let them be, so that they do not hold
+/// others back; or one that is not met where one that was wanted more, which has this name, lies on the same ground. The last one
+/// first.
 fn given_up(goals: &[Goal], made: &Made) -> Option<(usize, Option<String>)> {
-    let pursued = (0..goals.len())
-        .rev()
-        .filter(|&k| !made.before.goals[k].is_met);
-    pursued.into_iter().find_map(|k| {
-        let (before, after) = (made.before.rms[k], made.drawn.rms[k]);
-        let mut winners = goals[..k].iter();
-        let winner = winners.find(|g| shared(g, &goals[k]) >= SHARED);
-        let name = winner.map(|g| g.name.clone());
-        if after > GAINED * before {
-            return Some((k, name.filter(|_| after > FLOOR)));
-        }
-        let unmet = after > (UNMET * before).max(FLOOR);
-        (unmet && name.is_some()).then_some((k, name))
+    let pursued = || {
+        let all = (0..goals.len()).rev();
+        all.filter(|&k| !made.before.goals[k].is_met)
+    };
+    let gains = |k: usize| made.drawn.rms[k] <= GAINED * made.before.rms[k];
+    // What is met moves nothing, and only may have been spoiled.
+    let hinders = |k: usize| {
+        let spoiled = made.drawn.rms[k] > (SPOILED * made.before.rms[k]).max(FLOOR);
+        !made.before.goals[k].is_met || spoiled
+    };
+    let fine = |k: usize| made.drawn.rms[k] <= FLOOR;
+    let least = |a: &usize, b: &usize| made.before.rms[*a].total_cmp(&made.before.rms[*b]);
+    let exact = pursued().filter(|&k| !gains(k) && fine(k)).min_by(least);
+    if let Some(k) = exact {
+        return Some((k, None));
+    }
+    pursued().find_map(|k| {
+        let unmet = !gains(k) || made.drawn.rms[k] > (UNMET * made.before.rms[k]).max(FLOOR);
+        let mut larger = 0..k;
+        let winner = larger.find(|&g| hinders(g) && shared(&goals[g], &goals[k]) >= SHARED);
+        let name = winner.map(|g| goals[g].name.clone());
+        let spoils = winner.is_some_and(|g| made.before.goals[g].is_met);
+        (spoils || unmet && (name.is_some() || !gains(k))).then_some((k, name))
     })
 }
 
