@@ -131,7 +131,7 @@ pub(super) fn symmetrized(
     let done = match looked.done {
         Some(_) if denied => return Ok(Arranged::plain(met(found, &all, settings, ctx)?)),
         Some(done) => done,
-        None if contradicted && verdict != Some(Verdict::Accept) => {
+        None if denied || contradicted && verdict != Some(Verdict::Accept) => {
             return Ok(Arranged::plain(met(found, &all, settings, ctx)?));
         }
         None => optimize(&state.working.surface, &state.detection, settings, ctx)?,

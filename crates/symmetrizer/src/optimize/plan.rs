@@ -19,6 +19,9 @@ const SLIDE_REACH: f64 = 0.015;
 const ALONE: f64 = 0.1;
 /// A part that slides along itself is at least this share of the surface: the faces of a box do so, too.
 const SLIDING: f64 = 0.5;
+/// Clearly worse is an rms residual this many times another's, and by this much, fraction of L.
+const WORSE: f64 = 1.7;
+const SLACK: f64 = 5e-4;
 /// Patch and image are one place where this share of the smaller lies in both.
 const ONE_PLACE: f64 = 0.7;
 /// Powers that are tried for a turn to come round.
@@ -49,13 +52,27 @@ pub fn goals(detection: &Detection, params: &OptimizeParams) -> Vec<Goal> {
     let least = if params.only.is_some() { 0.0 } else { ALONE };
     let alone = |s: &&Symmetry| {
         let evident = s.is_evident && s.area_fraction >= least;
-        evident && !grouped.contains(&s.id) && asked(&[s.id])
+        let echo = params.only.is_none() && is_echo(s, detection);
+        evident && !echo && !grouped.contains(&s.id) && asked(&[s.id])
     };
     let singles = detection.symmetries.iter().filter(alone);
     goals.extend(singles.filter_map(|s| of_symmetry(s, detection)));
     goals.sort_by(|a, b| b.area_fraction.total_cmp(&a.area_fraction));
     goals.truncate(params.max_symmetries.unwrap_or(usize::MAX));
     goals
+}
+
+/// Whether another symmetry holds clearly better for most of what `s` holds for: a plate's mirror that also takes in what stands on it as
+/// far as the tolerance is none of its own.
+fn is_echo(s: &Symmetry, detection: &Detection) -> bool {
+    let count = detection.samples.list.len();
+    let own = s.ground(count);
+    let size = own.iter().filter(|m| **m).count();
+    let better = |k: &&Symmetry| k.id != s.id && s.rms > WORSE * k.rms + SLACK;
+    detection.symmetries.iter().filter(better).any(|k| {
+        let both = own.iter().zip(k.ground(count));
+        2 * both.filter(|(a, b)| **a && *b).count() > size
+    })
 }
 
 fn of_slide(slide: &Continuous, detection: &Detection) -> Goal {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::detect::arrange::{MIN_ORDER, is_closed, likeness};
+use crate::detect::arrange::{MIN_ORDER, SAME_GROUND, is_closed, likeness};
 use crate::detect::groups::Group;
 use crate::detect::surroundings::Surroundings;
 use crate::geom::Point;
@@ -31,6 +31,8 @@ pub fn copies(
     ordered.retain(|&k| !used[k] && !is_closed(&symmetries[k], surroundings));
     ordered.sort_by(|a, b| quality(b).total_cmp(&quality(a)));
     let mut places: Vec<Vec<bool>> = Vec::new();
+    // Of the sets that are clearly one place most have a sample of it.
+    let mut votes: Vec<Vec<i32>> = Vec::new();
     let mut links: Vec<Link> = Vec::new();
     for k in ordered {
         let s = &symmetries[k];
@@ -48,13 +50,23 @@ pub fn copies(
         }
         let ends = sets.map(|set| {
             let known = places.iter().position(|p| likeness(p, &set) > SAME_COPY);
-            known.unwrap_or_else(|| {
-                places.push(set);
+            let place = known.unwrap_or_else(|| {
+                places.push(set.clone());
+                votes.push(vec![0; count]);
                 places.len() - 1
-            })
+            });
+            if likeness(&places[place], &set) > SAME_GROUND {
+                let inside = votes[place].iter_mut().zip(&set);
+                inside.for_each(|(votes, s)| *votes += if *s { 1 } else { -1 });
+            }
+            place
         });
         links.push((ends[0], ends[1], k));
     }
+    let places: Vec<Vec<bool>> = votes
+        .iter()
+        .map(|votes| votes.iter().map(|v| *v > 0).collect())
+        .collect();
     let mut groups: Vec<Group> = connected(places.len(), &links)
         .into_iter()
         .filter(|members| members.len() >= MIN_ORDER)

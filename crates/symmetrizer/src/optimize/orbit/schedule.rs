@@ -32,6 +32,8 @@ const HELD: f64 = 0.5;
 /// A goal that keeps this share of its residual gains nothing worth the change: it is as exact as its triangles let it
 /// be.
 const GAINED: f64 = 0.9;
+/// The same where there is hardly anything to be gained.
+const GAINED_OF_LITTLE: f64 = 0.7;
 /// A goal that was met and is further now by this factor, and by more than [`FLOOR`], was spoiled by others.
 const SPOILED: f64 = 2.0;
 /// Goals share ground where this share of the smaller one's samples is in both.
@@ -167,7 +169,15 @@ fn given_up(goals: &[Goal], made: &Made) -> Option<(usize, Option<String>)> {
         let all = (0..goals.len()).rev();
         all.filter(|&k| !made.before.goals[k].is_met)
     };
-    let gains = |k: usize| made.drawn.rms[k] <= GAINED * made.before.rms[k];
+    let gains = |k: usize| {
+        let before = made.before.rms[k];
+        let kept = if before < QUIET {
+            GAINED_OF_LITTLE
+        } else {
+            GAINED
+        };
+        made.drawn.rms[k] <= kept * before
+    };
     // What is met moves nothing, and only may have been spoiled.
     let hinders = |k: usize| {
         let spoiled = made.drawn.rms[k] > (SPOILED * made.before.rms[k]).max(FLOOR);
