@@ -157,8 +157,8 @@ impl Moments {
                 *sum += w * x;
             }
             if j <= ORDERS {
-                for i in 0..=ORDERS - j {
-                    self.height[monomial(i, j)] += w * h * powers[i];
+                for (i, x) in powers[..=ORDERS - j].iter().enumerate() {
+                    self.height[monomial(i, j)] += w * h * x;
                 }
             }
             w *= y;

@@ -212,6 +212,10 @@ fn shared(a: &Goal, b: &Goal) -> f64 {
 impl Made {
     fn finished(self, surface: &Surface, detection: &Detection, left: Vec<Met>) -> Optimized {
         let drawn = self.drawn;
+        let worse = |k: usize| drawn.rms[k] > SPOILED * self.before.rms[k] && drawn.rms[k] > EXACT;
+        let all = 0..drawn.goals.len();
+        let exact = all.filter(|&k| !(drawn.goals[k].is_met && worse(k)));
+        let exact: Vec<Goal> = exact.map(|k| drawn.goals[k].clone()).collect();
         let met = drawn.goals.iter().enumerate().map(|(k, goal)| {
             let (residual, held) = ([self.before.rms[k], drawn.rms[k]], self.before.held[k]);
             match held < HELD {
@@ -232,7 +236,7 @@ impl Made {
             steps: vec![step],
             energy: self.energy,
             next_id: next_id(detection),
-            goals: drawn.goals,
+            goals: exact,
             ..Optimized::unmoved(surface, detection, self.outcome)
         }
     }
