@@ -53,7 +53,7 @@ pub fn shuffled_motions(
     };
     let mut turn = || match samples.ambient {
         Ambient::Space => rng.random_range(0.0..TAU),
-        Ambient::Plane => profile::turn(class),
+        Ambient::Plane => profile::turn(class.is_improper()),
     };
     pairs
         .iter()

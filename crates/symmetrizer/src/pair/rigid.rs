@@ -147,7 +147,7 @@ impl<'a> Likes<'a> {
                 turns
             }
             Ambient::Plane => {
-                let turn = profile::turn(class);
+                let turn = profile::turn(mirrored);
                 let gap = p.gap_at(q, mirrored, turn).filter(|&gap| gap <= max_gap);
                 gap.map(|gap| Alignment { turn, gap }).into_iter().collect()
             }

@@ -15,7 +15,6 @@ use crate::geom::Vector;
 use crate::sample::relief::{Frame, Harmonic, Relief, TERMS};
 use crate::sample::signature::SCALES;
 use crate::shape::wall::Wall;
-use crate::transform::Class;
 
 /// Places that a height is taken at, and the length they are means over, a share of the radius: what is traced from a
 /// bitmap has teeth of a pixel.
@@ -27,8 +26,8 @@ const AROUND: f64 = 0.25;
 const DEGREE: usize = 7;
 
 /// The turn of the second frame, radians, at which profiles lie on each other under a motion of the plane.
-pub fn turn(class: Class) -> f64 {
-    if class.is_improper() { PI } else { 0.0 }
+pub fn turn(improper: bool) -> f64 {
+    if improper { PI } else { 0.0 }
 }
 
 /// The frame at a length along a ring: the normal to the chord over `radius` to either side, away from the shape, and
@@ -123,8 +122,8 @@ mod tests {
             let along = f64::from(k) / 20.0 * wall.length(0);
             let here = of(&wall, along);
             let there = of(&image, image.length(0) - along);
-            let gap = |class: Class| here.gap_at(&there, class.is_improper(), turn(class));
-            let [same, other] = [Class::Improper, Class::Proper].map(|c| gap(c).expect("a gap"));
+            let gap = |improper: bool| here.gap_at(&there, improper, turn(improper));
+            let [same, other] = [true, false].map(|c| gap(c).expect("a gap"));
             assert!(same < 0.05, "{k}: {same}");
             assert!(other > 3.0 * same, "{k}: {other}");
             assert!(here.sizes().least_gap(&there.sizes()).expect("a gap") <= same + 1e-9);
