@@ -42,7 +42,9 @@ pub fn arrange(
         .filter(|s| !groups.iter().any(|g| g.symmetries.contains(&s.id)))
         .cloned()
         .collect();
-    groups.extend(arranged(surroundings, &others));
+    // Any two lines across each other make half a turn: of a part that is not worth a name.
+    let several = |g: &Group| g.pattern.is_some() || !g.orbit.is_empty() || turns_of(g) > 2;
+    groups.extend(arranged(surroundings, &others).into_iter().filter(several));
     groups
 }
 
@@ -68,4 +70,9 @@ fn is_power(s: &Symmetry, turn: &Symmetry, surroundings: &Surroundings<'_>, near
     let mut powers = std::iter::successors(Some(turn.q_from_p), |t| Some(turn.q_from_p.after(t)));
     let same = |t: Isometry| surroundings.space.distance(&t, &s.q_from_p) < near;
     inside > outside && powers.by_ref().take(turns::order(turn) as usize).any(same)
+}
+
+/// How many turns a group has, the identity among them.
+fn turns_of(group: &Group) -> usize {
+    group.elements.iter().filter(|t| !t.is_improper()).count()
 }

@@ -171,7 +171,7 @@ const LINED: f64 = 0.9;
 
 /// Copies in free positions that together have less than this share of an outline are not made alike by themselves: the toes of
 /// a lizard are nearly copies, too.
-const COPIED: f64 = 0.5;
+const COPIED: f64 = 0.6;
 
 /// Whether the groups of turns among the `goals` come before the lines of a drawing.
 pub(super) fn turns_first(found: &Detected, goals: &[Goal]) -> bool {
