@@ -68,7 +68,9 @@ fn drawings_have_the_lines_that_they_have() {
             let (count, rms) = whole(&found);
             println!("{name} turned by {angle}: {count} lines, rms {rms:.5} L");
             assert!(lines.contains(&count), "{name}: {count} lines");
-            let named = found.groups.first().map_or("", |g| g.name.as_str());
+            // Copies of toes and the like have no axis.
+            let mut turns = found.groups.iter().filter(|g| g.axis.is_some());
+            let named = turns.next().map_or("", |g| g.name.as_str());
             assert_eq!(named, group, "{name}");
             assert!(rms < 0.0015, "{name}: {rms}");
         }
@@ -474,8 +476,17 @@ fn what_has_no_line_is_left() {
             bend.score,
             bend.rival.unwrap_or(1.0)
         );
-        assert_eq!(done.job.outcome, Outcome::NoSymmetry, "{name}");
         assert_ne!(bend.verdict, Verdict::Accept, "{name}");
+        // The fingers of the drawn hand are copies of each other, and exact ones.
+        if name == "2d/hand_fa.svg" {
+            let orbits = |s: &Step| matches!(s, Step::Orbits { .. });
+            assert!(done.job.report.steps.iter().all(orbits), "{name}");
+            let result = done.job.report.result.as_ref();
+            let moved = result.map_or(0.0, |r| r.distortion.rms);
+            assert!(moved < 0.01, "{name}: moved by {moved} % of D");
+            continue;
+        }
+        assert_eq!(done.job.outcome, Outcome::NoSymmetry, "{name}");
         assert_eq!(done.drawing.svg(), drawing.svg(), "{name}");
     }
 }
