@@ -2,6 +2,7 @@
 
 pub mod blue_noise;
 pub mod crisp;
+mod moments;
 pub mod outline;
 pub mod probes;
 pub mod profile;

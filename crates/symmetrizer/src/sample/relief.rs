@@ -13,6 +13,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Complex, SMatrix, SVector};
 
 use crate::geom::{Point, Vector};
+use crate::sample::moments::{Moments, ORDERS, UNKNOWNS, monomial};
 use crate::sample::signature::SCALES;
 use crate::shape::curvature::Cloud;
 
@@ -47,10 +48,6 @@ impl Frame {
 
 /// Kept harmonics: (m, index among the radial polynomials of m).
 pub const TERMS: [(usize, usize); 7] = [(0, 1), (0, 2), (1, 1), (2, 0), (2, 1), (3, 0), (4, 0)];
-/// Largest m.
-const ORDERS: usize = 4;
-/// Coefficients of the whole fit, real.
-const UNKNOWNS: usize = 15;
 /// Points that a fit needs, somewhat more than unknowns.
 const MIN_POINTS: usize = 22;
 
@@ -78,12 +75,6 @@ impl Default for Harmonics {
     fn default() -> Self {
         Self::new()
     }
-}
-
-/// The row of x^i y^j among the monomials.
-fn monomial(i: usize, j: usize) -> usize {
-    let n = i + j;
-    n * (n + 1) / 2 + j
 }
 
 /// For each m the radial polynomials, orthonormal under the weight, by powers of rho: Gram-Schmidt over rho^m, rho^(m+2),
@@ -129,53 +120,6 @@ fn spread(k: usize, m: usize) -> [Complex<f64>; UNKNOWNS] {
         all = times(all, &[(2, 0, one), (0, 2, one)]);
     }
     all
-}
-
-/// Weighted sums of x^p y^q over points, p + q up to twice the degree, and of h x^i y^j: all that a fit of a polynomial needs.
-struct Moments {
-    of: [[f64; 2 * ORDERS + 1]; 2 * ORDERS + 1],
-    height: [f64; UNKNOWNS],
-}
-
-impl Moments {
-    fn new() -> Self {
-        Self {
-            of: [[0.0; 2 * ORDERS + 1]; 2 * ORDERS + 1],
-            height: [0.0; UNKNOWNS],
-        }
-    }
-
-    fn add(&mut self, [x, y]: [f64; 2], h: f64, weight: f64) {
-        let mut powers = [1.0; 2 * ORDERS + 1];
-        for k in 1..powers.len() {
-            powers[k] = powers[k - 1] * x;
-        }
-        let mut w = weight;
-        for (j, row) in self.of.iter_mut().enumerate() {
-            let count = powers.len() - j;
-            for (sum, x) in row[..count].iter_mut().zip(&powers) {
-                *sum += w * x;
-            }
-            if j <= ORDERS {
-                for (i, x) in powers[..=ORDERS - j].iter().enumerate() {
-                    self.height[monomial(i, j)] += w * h * x;
-                }
-            }
-            w *= y;
-        }
-    }
-
-    /// The matrix of the sums of products of monomials.
-    fn matrix(&self) -> SMatrix<f64, UNKNOWNS, UNKNOWNS> {
-        let all = || (0..=ORDERS).flat_map(|n| (0..=n).map(move |j| (n - j, j)));
-        let mut matrix = SMatrix::zeros();
-        for (a, (i, j)) in all().enumerate() {
-            for (b, (k, l)) in all().enumerate() {
-                matrix[(a, b)] = self.of[j + l][i + k];
-            }
-        }
-        matrix
-    }
 }
 
 impl Harmonics {
