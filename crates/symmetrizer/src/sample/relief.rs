@@ -13,6 +13,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Complex, SMatrix, SVector};
 
 use crate::geom::{Point, Vector};
+use crate::sample::clouds::Clouds;
 use crate::sample::moments::{Moments, ORDERS, UNKNOWNS, monomial};
 use crate::sample::signature::SCALES;
 use crate::shape::curvature::Cloud;
@@ -143,10 +144,11 @@ impl Harmonics {
         Self(rows)
     }
 
-    /// The relief at `x` in `frame` at the radii r0, 2 r0, 4 r0.
-    pub fn relief(&self, cloud: &Cloud, x: &Point, frame: &Frame, r0: f64) -> Relief {
+    /// The relief at `x` in `frame` at the radii of `clouds`.
+    pub fn relief(&self, clouds: &Clouds, x: &Point, frame: &Frame) -> Relief {
         Relief(std::array::from_fn(|s| {
-            self.fit(cloud, x, frame, r0 * f64::from(1 << s))
+            let (cloud, radius) = clouds.at(s);
+            self.fit(cloud, x, frame, radius)
         }))
     }
 
@@ -395,8 +397,8 @@ mod tests {
     }
 
     fn relief_of(surface: &Surface, frame: &Frame, x: &Point) -> Relief {
-        let cloud = Cloud::new(surface, 0.02);
-        Harmonics::new().relief(&cloud, x, frame, 0.06)
+        let clouds = Clouds::new(surface, 0.06);
+        Harmonics::new().relief(&clouds, x, frame)
     }
 
     /// The turn of the frame is found again, for a moved and for a mirrored copy, and only there.
