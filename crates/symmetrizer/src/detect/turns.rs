@@ -219,7 +219,7 @@ impl<'a> Place<'a> {
         let own = |p: &PatchPair| self.rings[self.wall.along(&p.partner).0];
         let samples = self.samples.par_iter();
         samples
-            .map(|&s| touch_one(self.ground, t, s, tolerance, min_cos).filter(own))
+            .map(|&s| touch_one(self.ground, t, s, tolerance, min_cos, None).filter(own))
             .collect()
     }
 }

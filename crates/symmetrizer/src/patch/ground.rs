@@ -28,23 +28,24 @@ pub fn touch(
 ) -> Vec<Option<PatchPair>> {
     (0..ground.samples.list.len() as u32)
         .into_par_iter()
-        .map(|s| touch_one(ground, t, s, tolerance, min_cos))
+        .map(|s| touch_one(ground, t, s, tolerance, min_cos, None))
         .collect()
 }
 
-/// The same of one sample.
+/// The same of one sample, likely near the face `guess`.
 pub fn touch_one(
     ground: &Ground<'_>,
     t: &Isometry,
     sample: u32,
     tolerance: f64,
     min_cos: f64,
+    guess: Option<u32>,
 ) -> Option<PatchPair> {
     let s = &ground.samples.list[sample as usize];
     let (image, normal) = (t.apply(&s.position), t.rotate(&s.normal));
     let hit = ground
         .closest
-        .nearest_facing(&image, &normal, min_cos, tolerance)?;
+        .nearest_facing_from(&image, &normal, min_cos, tolerance, guess)?;
     Some(PatchPair {
         sample,
         partner: hit.at,

@@ -6,7 +6,8 @@ use crate::pair::Pair;
 use crate::patch::ground::Ground;
 use crate::patch::judge::{Grown, judge};
 use crate::patch::params::PatchParams;
-use crate::patch::settle::{NOWHERE, Settled, reach, settled};
+use crate::patch::reach::Reach;
+use crate::patch::settle::{NOWHERE, Settled, settled};
 use crate::patch::symmetry::{Refusal, Symmetry};
 use crate::sample::Samples;
 use crate::sample::samples::Describer;
@@ -115,7 +116,7 @@ pub fn grow_settled(
     let Settled { t, spread } = rest.map_err(|reason| refuse(candidate.t, reason))?;
     // A patch ends where the isometry no longer holds as it does where it holds best.
     let reached = (params.end_of(class) * spread).clamp(0.25 * tolerance, tolerance);
-    let grown = reach(ground, &t, reached, params.min_cos, candidate, u32::MAX);
+    let grown = Reach::new(ground, candidate, params.min_cos).grow(&t, reached, u32::MAX);
     if grown.is_empty() {
         return Err(refuse(t, NOWHERE.into()));
     }

@@ -6,6 +6,7 @@ pub mod ids;
 pub mod judge;
 pub mod likeness;
 pub mod params;
+mod reach;
 pub mod refine;
 pub mod settle;
 pub mod symmetry;

@@ -1,12 +1,11 @@
 //! A candidate's isometry comes to rest on the surface: refitted while its patch grows over
 //! neighbouring samples, in the end to the part for which it holds best.
 
-use rayon::prelude::*;
-
-use crate::patch::ground::{Ground, contacts, touch, touch_one};
+use crate::patch::ground::{Ground, contacts, touch};
 use crate::patch::grow::Candidate;
 use crate::patch::judge::{confusion, too_small, unlike};
 use crate::patch::params::PatchParams;
+use crate::patch::reach::Reach;
 use crate::patch::refine::{refine, weigh};
 use crate::patch::symmetry::PatchPair;
 use crate::transform::{Class, Isometry};
@@ -127,9 +126,10 @@ fn settle(
     let Candidate { class, seeds, .. } = candidate;
     let tolerance = params.tolerance_of(*class);
     let mut t = candidate.t;
+    let mut reach = Reach::new(ground, candidate, params.min_cos);
     for round in rounds {
         let bound = round.tolerance * tolerance;
-        let grown = reach(ground, &t, bound, params.min_cos, candidate, round.rings);
+        let grown = reach.grow(&t, bound, round.rings);
         if round.tolerance <= 1.0 {
             hopeful(ground, &grown, params.least_area(*class))?;
         }
@@ -140,12 +140,12 @@ fn settle(
         t = refine(&t, *class, &contacts);
     }
     if *class == Class::Mirror && !candidate.near {
-        promising(ground, candidate, &t, tolerance, params)?;
+        promising(ground, reach.grow(&t, tolerance, u32::MAX), params)?;
     }
     let last = rounds.last().map_or(1.0, |r| r.tolerance) * tolerance;
     let mut spread = 0.0;
     for round in 0..SETTLING {
-        let grown = reach(ground, &t, last, params.min_cos, candidate, u32::MAX);
+        let grown = reach.grow(&t, last, u32::MAX);
         if grown.is_empty() {
             return Err(NOWHERE.into());
         }
@@ -200,12 +200,9 @@ fn hopeful(ground: &Ground<'_>, grown: &[PatchPair], least: f64) -> Result<(), S
 /// Refuses a mirror at about its place that partners look much too unlike for: as it comes to rest they change little.
 fn promising(
     ground: &Ground<'_>,
-    candidate: &Candidate,
-    t: &Isometry,
-    tolerance: f64,
+    grown: Vec<PatchPair>,
     params: &PatchParams,
 ) -> Result<(), String> {
-    let grown = reach(ground, t, tolerance, params.min_cos, candidate, u32::MAX);
     let stride = grown.len().div_ceil(LOOKED_AT).max(1);
     let some: Vec<PatchPair> = grown.into_iter().step_by(stride).collect();
     let confusion = confusion(ground, &some);
@@ -248,47 +245,4 @@ fn scale(grown: &[PatchPair], seeds: &[u32], quantile: f64) -> f64 {
     }
     let at = ((residuals.len() - 1) as f64 * quantile) as usize;
     1.5 * *residuals.select_nth_unstable_by(at, f64::total_cmp).1
-}
-
-/// The samples that can be reached from a seed over at most `rings` neighbours whose images touch the
-/// surface, by sample.
-pub fn reach(
-    ground: &Ground<'_>,
-    t: &Isometry,
-    tolerance: f64,
-    min_cos: f64,
-    candidate: &Candidate,
-    rings: u32,
-) -> Vec<PatchPair> {
-    let samples = ground.samples;
-    let mut seen = match &candidate.within {
-        Some(within) => within.iter().map(|inside| !inside).collect(),
-        None => vec![false; samples.list.len()],
-    };
-    let mut front: Vec<u32> = candidate.seeds.clone();
-    for &s in &candidate.seeds {
-        seen[s as usize] = true;
-    }
-    let mut grown = Vec::new();
-    let mut ring = 0;
-    while !front.is_empty() && ring <= rings {
-        ring += 1;
-        let touched: Vec<PatchPair> = front
-            .par_iter()
-            .with_min_len(64)
-            .filter_map(|&s| touch_one(ground, t, s, tolerance, min_cos))
-            .collect();
-        front.clear();
-        for pair in &touched {
-            for &next in &samples.neighbors[pair.sample as usize] {
-                if !seen[next as usize] {
-                    seen[next as usize] = true;
-                    front.push(next);
-                }
-            }
-        }
-        grown.extend(touched);
-    }
-    grown.sort_by_key(|p| p.sample);
-    grown
 }

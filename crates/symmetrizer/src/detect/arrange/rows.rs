@@ -113,7 +113,7 @@ fn is_there(copy: &[u32], t: &Isometry, surroundings: &Surroundings<'_>) -> bool
     let patch = &surroundings.params.patch;
     let near = |s: &&u32| {
         let ground = surroundings.ground;
-        touch_one(ground, t, **s, patch.copy_tolerance, patch.min_cos).is_some()
+        touch_one(ground, t, **s, patch.copy_tolerance, patch.min_cos, None).is_some()
     };
     copy.iter().filter(near).count() as f64 >= COPIED * copy.len() as f64
 }
