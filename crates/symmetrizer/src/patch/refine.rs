@@ -39,6 +39,33 @@ pub fn refine(t: &Isometry, class: Class, contacts: &[Contact]) -> Isometry {
     }
 }
 
+/// Steps shrink by this share at least where it is foreseen where they end, and by no less than this,
+const SHRINKING: std::ops::Range<f64> = 0.3..0.9;
+/// where they point the same way to within this share of their length.
+const ASTRAY: f64 = 0.5;
+
+/// Where a mirror that was refined from `before` to `t` to `next` comes to if its steps go on to shrink as they did (Aitken 1926): on a
+/// round shape the surface slides under the mirror, and each step makes good a tenth of what is left. `None` where they
+/// do not point the same way.
+pub fn leap(before: &Isometry, t: &Isometry, next: &Isometry) -> Option<Isometry> {
+    let step = |a: &Isometry, b: &Isometry| (b.linear - a.linear, b.translation - a.translation);
+    let dot = |a: &(M3<f64>, Vector), b: &(M3<f64>, Vector)| a.0.dot(&b.0) + a.1.dot(&b.1);
+    let (first, second) = (step(before, t), step(t, next));
+    let ratio = dot(&second, &first) / dot(&first, &first);
+    let aside = dot(&second, &second) - ratio * ratio * dot(&first, &first);
+    let is_straight = aside <= ASTRAY * ASTRAY * dot(&second, &second);
+    if !is_straight || ratio.is_nan() || ratio < SHRINKING.start {
+        return None;
+    }
+    let ratio = ratio.min(SHRINKING.end);
+    let far = ratio / (1.0 - ratio);
+    let image = Isometry {
+        linear: next.linear + far * second.0,
+        translation: next.translation + far * second.1,
+    };
+    Some(Isometry::mirror(&image.nearest_mirror(&Point::origin())))
+}
+
 /// Weights 1 / (1 + r^2 / s^2)^2 by the distance r of a contact's ends under `t` (Geman and
 /// McClure): what holds to within about s counts, what merely reaches the tolerance does not.
 pub fn weigh(t: &Isometry, contacts: &mut [Contact], s: f64) {
