@@ -7,9 +7,9 @@ use common::{load, model, sphere, working};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use symmetrizer::detect::{DetectParams, Detection, detect};
-use symmetrizer::field::Reach;
 use symmetrizer::field::grow::Land;
 use symmetrizer::field::trust::{Trust, Verdict};
+use symmetrizer::field::{Mirrors, Reach};
 use symmetrizer::geom::{Matrix3, Point, Vector, nearest_orthogonal};
 use symmetrizer::job::pictures;
 use symmetrizer::shape::SurfacePoint;
@@ -50,7 +50,7 @@ impl Ground {
 
     fn bend(&self) -> Option<(Bend, Vec<Point>)> {
         let land = self.land();
-        let mirrors: Vec<_> = self.found.symmetries.iter().map(|s| s.q_from_p).collect();
+        let mirrors = Mirrors::from(&self.found);
         let bend = Bend::find(&land, &mirrors, &mut Context::new(0)).expect("solvable")?;
         let straight = straighten(&land, &bend).expect("solvable").positions;
         Some((bend, straight))

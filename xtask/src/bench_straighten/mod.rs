@@ -8,7 +8,7 @@ use std::time::Instant;
 use serde::Deserialize;
 use symmetrizer::detect::detect;
 use symmetrizer::field::grow::Land;
-use symmetrizer::field::{Reach, SymmetryField, find};
+use symmetrizer::field::{Mirrors, Reach, SymmetryField, find};
 use symmetrizer::geom::{Matrix3, Point, Vector, nearest_orthogonal};
 use symmetrizer::sample::Samples;
 use symmetrizer::shape::working::Working;
@@ -125,7 +125,7 @@ fn look(mesh: &Mesh) -> Result<Looked> {
     let closest = ClosestPoint::new(&working.surface);
     let reach = Reach::new(&found.samples, 0.12);
     let land = Land::new(&working.surface, &closest, &found.samples, &reach);
-    let mirrors: Vec<_> = found.symmetries.iter().map(|s| s.q_from_p).collect();
+    let mirrors = Mirrors::from(&found);
     let bend = Bend::find(&land, &mirrors, &mut ctx)?;
     let looked = lap();
     let (field, straight) = match &bend {

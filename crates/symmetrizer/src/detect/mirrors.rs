@@ -113,7 +113,7 @@ impl Found {
              {:.2}), its image passes by the surface, or as many votes come by chance",
             symmetry.confusion
         );
-        if doubt <= MAX_SUPPORTED && symmetry.area_fraction >= MIN_SUPPORTED {
+        if doubt <= MAX_SUPPORTED {
             self.doubtful.push(symmetry.clone());
         }
         self.refused.push(*symmetry.refuse(reason, ground.samples));
@@ -131,12 +131,9 @@ fn consistent(surroundings: &Surroundings<'_>, found: &mut Found) {
         ..
     } = surroundings;
     let near = 0.5 * params.cluster.bandwidth;
-    let all: Vec<Symmetry> = found
-        .symmetries
-        .iter()
-        .chain(&found.doubtful)
-        .cloned()
-        .collect();
+    let doubtful = found.doubtful.iter();
+    let doubtful = doubtful.filter(|s| s.area_fraction >= MIN_SUPPORTED);
+    let all: Vec<Symmetry> = found.symmetries.iter().chain(doubtful).cloned().collect();
     let third = |a: &Isometry, b: &Isometry| {
         let image = a.after(&b.after(a));
         let apart = space.distance(&image, a) > near && space.distance(&image, b) > near;
@@ -146,12 +143,15 @@ fn consistent(surroundings: &Surroundings<'_>, found: &mut Found) {
                 .any(|c| space.distance(&image, &c.q_from_p) < near)
     };
     for s in std::mem::take(&mut found.doubtful) {
-        let supported = all.iter().any(|b| third(&s.q_from_p, &b.q_from_p));
+        let large = s.area_fraction >= MIN_SUPPORTED;
+        let supported = large && all.iter().any(|b| third(&s.q_from_p, &b.q_from_p));
         let again = found.symmetries.iter().any(|k| is_same(k, &s, space, near));
-        if supported
-            && !again
-            && let Ok(s) = as_good(s, &found.symmetries, ground)
-        {
+        if again {
+            continue;
+        }
+        if !supported {
+            found.doubtful.push(s);
+        } else if let Ok(s) = as_good(s, &found.symmetries, ground) {
             found
                 .refused
                 .retain(|r: &Refusal| space.distance(&r.q_from_p, &s.q_from_p) > 1e-9);

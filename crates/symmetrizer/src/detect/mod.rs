@@ -157,6 +157,8 @@ pub struct Detection {
     pub clouds: Vec<Cloud>,
     /// Verified symmetries, class by class, the highest first.
     pub symmetries: Vec<Symmetry>,
+    /// Mirrors that were refused for nothing but doubt, not much of it: where a shape is bent more than one of them may be true.
+    pub doubtful: Vec<Symmetry>,
     /// Modes that were looked at and refused.
     pub refused: Vec<Refusal>,
     /// Which symmetries belong together, those of most of the surface first.
@@ -290,6 +292,7 @@ fn find(
     Ok(Detection {
         clouds: looked.clouds,
         symmetries: looked.symmetries,
+        doubtful: looked.doubtful,
         refused: looked.refused,
         groups,
         continuous,
@@ -310,6 +313,7 @@ fn numbered(symmetries: &mut [Symmetry]) {
 struct Looked {
     clouds: Vec<Cloud>,
     symmetries: Vec<Symmetry>,
+    doubtful: Vec<Symmetry>,
     refused: Vec<Refusal>,
 }
 
@@ -349,6 +353,7 @@ fn looked(
             search::search(surroundings, clusters, &mut cloud, &looked.symmetries, ctx)
         })?;
         looked.symmetries.extend(found.symmetries);
+        looked.doubtful.extend(found.doubtful);
         looked.refused.extend(found.refused);
         drifting.extend(found.drifting);
         looked.clouds.push(cloud);

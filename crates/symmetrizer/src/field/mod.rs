@@ -22,6 +22,7 @@ use crate::transform::Isometry;
 
 pub use grow::grow;
 pub use reach::Reach;
+pub use seeds::Mirrors;
 
 /// The partner of a sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,20 +56,17 @@ const IN_ORDER: f64 = 1.1;
 /// Pairs around an outline of so much worth are not to be outdone.
 const ENOUGH: f64 = 0.7;
 
-/// The field that detection's `mirrors` grow into on `land`: of several starts the one that covers most.
+/// The field that detection's `mirrors` grow into on `land`, with or without the doubtful ones: of several starts the one that
+/// is to be trusted most.
 ///
 /// # Errors
 /// [`crate::Error::Cancelled`].
-pub fn find(
-    land: &grow::Land<'_>,
-    mirrors: &[Isometry],
-    ctx: &Context<'_>,
-) -> Result<SymmetryField> {
+pub fn find(land: &grow::Land<'_>, mirrors: &Mirrors, ctx: &Context<'_>) -> Result<SymmetryField> {
     let cancel = ctx.token();
-    // In the plane nearly all starts cover nearly all.
+    // Nearly all starts cover nearly all: what they have grown into tells them apart.
     let worth = |field: &SymmetryField| match land.wall {
         Some(_) => field.cover() * trust::likeness(land, field),
-        None => field.cover(),
+        None => trust::Trust::of(land, field).score(),
     };
     let around = land.wall.map(|wall| {
         let around = around::Around::of(wall, land.samples);
@@ -78,9 +76,10 @@ pub fn find(
         ctx.check()?;
         return Ok(filled.clone());
     }
+    let choices = mirrors.choices();
     let claims = seeds::CLAIMS.iter();
     let starts: Vec<_> = claims
-        .map(|&claim| seeds::seeds(land, mirrors, claim))
+        .flat_map(|&claim| choices.iter().map(move |c| seeds::seeds(land, c, claim)))
         .collect();
     let mut grown: Vec<SymmetryField> = starts
         .into_par_iter()

@@ -1,9 +1,45 @@
 //! Where fields begin: what detection's mirrors hold for.
 
+use crate::detect::Detection;
 use crate::field::Partner;
 use crate::field::grow::Land;
 use crate::field::pieces::pieces;
-use crate::transform::Isometry;
+use crate::patch::Symmetry;
+use crate::transform::{Class, Isometry};
+
+/// The mirrors that detection found.
+#[derive(Debug, Clone, Default)]
+pub struct Mirrors {
+    /// Those that hold for a part of the surface.
+    pub sure: Vec<Isometry>,
+    /// Those that may.
+    pub doubtful: Vec<Isometry>,
+}
+
+impl From<&Detection> for Mirrors {
+    fn from(found: &Detection) -> Self {
+        let mirrors = |all: &[Symmetry]| {
+            let mirrors = all.iter().filter(|s| s.class == Class::Mirror);
+            mirrors.map(|s| s.q_from_p).collect()
+        };
+        Self {
+            sure: mirrors(&found.symmetries),
+            doubtful: mirrors(&found.doubtful),
+        }
+    }
+}
+
+impl Mirrors {
+    /// What a field may begin with: the sure ones, and where there are doubtful ones all of them. On roundish shapes these alone
+    /// would grow into anything.
+    pub fn choices(&self) -> Vec<Vec<Isometry>> {
+        let mut choices = vec![self.sure.clone()];
+        if !(self.sure.is_empty() || self.doubtful.is_empty()) {
+            choices.push([&self.sure[..], &self.doubtful].concat());
+        }
+        choices
+    }
+}
 
 /// Distances within which a mirror claims a sample, fractions of L, tried in turn.
 pub const CLAIMS: [f64; 3] = [0.006, 0.01, 0.015];

@@ -3,11 +3,10 @@
 
 use crate::context::Context;
 use crate::error::Result;
-use crate::field::Reach;
 use crate::field::grow::Land;
 use crate::field::trust::Verdict;
+use crate::field::{Mirrors, Reach};
 use crate::job::{Detected, plane};
-use crate::optimize::outcome::mirrors;
 use crate::optimize::schedule::{Settings, prepared};
 use crate::optimize::{Optimized, Step, complete, mend};
 use crate::report::{BendReport, KeptReport};
@@ -53,8 +52,12 @@ pub(super) fn unbend(
         done: None,
     };
     let plane = before.wall.is_some();
-    let mirrors: Vec<_> = mirrors(&before.detection).map(|s| s.q_from_p).collect();
-    if params.when == When::Never || mirrors.is_empty() && !plane {
+    let mut mirrors = Mirrors::from(&before.detection);
+    if plane {
+        // An outline is paired all around, whatever mirrors it has.
+        mirrors.doubtful.clear();
+    }
+    if params.when == When::Never || mirrors.sure.is_empty() && !plane {
         return Ok(nothing);
     }
     let surface = &before.working.surface;

@@ -3,15 +3,14 @@
 use crate::context::Context;
 use crate::deform::control::{decimated, stiffness_on};
 use crate::error::Result;
-use crate::field::grow::Land;
+use crate::field::grow::{Land, grow};
 use crate::field::trust::{Trust, Verdict};
-use crate::field::{Partner, SymmetryField, find};
+use crate::field::{Mirrors, Partner, SymmetryField, find};
 use crate::geom::{Matrix3, Vector, nearest_orthogonal, sorted_eigen};
 use crate::shape::ClosestPoint;
 use crate::straighten::blend::Blend;
 use crate::straighten::rotations::Evenness;
 use crate::straighten::{rotations, settle};
-use crate::transform::Isometry;
 
 /// Local mirrors that turn less, degrees, are one mirror.
 pub const LEAST: f64 = 4.0;
@@ -40,15 +39,11 @@ impl Bend {
     ///
     /// # Errors
     /// [`crate::Error::Numerical`], [`crate::Error::Cancelled`].
-    pub fn find(
-        land: &Land<'_>,
-        mirrors: &[Isometry],
-        ctx: &mut Context<'_>,
-    ) -> Result<Option<Self>> {
+    pub fn find(land: &Land<'_>, mirrors: &Mirrors, ctx: &mut Context<'_>) -> Result<Option<Self>> {
         if land.wall.is_some() {
             return Self::find_on(land, mirrors, ctx);
         }
-        if mirrors.is_empty() {
+        if mirrors.sure.is_empty() {
             return Ok(None);
         }
         let Some(control) = decimated(land.surface, FACES)? else {
@@ -75,19 +70,16 @@ impl Bend {
         Blend::new(land.surface, land.samples).means(&self.trust.region(land))
     }
 
-    fn find_on(
-        land: &Land<'_>,
-        mirrors: &[Isometry],
-        ctx: &mut Context<'_>,
-    ) -> Result<Option<Self>> {
+    fn find_on(land: &Land<'_>, mirrors: &Mirrors, ctx: &mut Context<'_>) -> Result<Option<Self>> {
         let grown = find(land, mirrors, ctx)?;
         // An outline without a line that holds for it may have one all the same, only rougher.
-        let known = land.wall.is_none() || !mirrors.is_empty();
+        let known = land.wall.is_none() || !mirrors.sure.is_empty();
         if known && spread(land, &grown) < LEAST {
             return Ok(None);
         }
-        let settled = settle(land, &grown, ctx)?;
-        let trust = Trust::of(land, &settled);
+        let first = settle(land, &grown, ctx)?;
+        let trust = Trust::of(land, &first);
+        let (settled, trust) = regrown(land, first, trust, ctx)?;
         let field = match trust.verdict() {
             Verdict::Refuse => settled.clone(),
             Verdict::Uncertain if land.wall.is_none() => {
@@ -105,6 +97,35 @@ impl Bend {
             turns,
             degrees,
         }))
+    }
+}
+
+/// Share of the samples without a partner that fits above which a field is grown once more.
+const LOOSE: f64 = 0.03;
+
+/// A field of which much is doubtful grown once more, from what is trusted of it, where the settled mirrors say: pairs that slid while
+/// it grew are found anew. Whichever is to be trusted more.
+fn regrown(
+    land: &Land<'_>,
+    first: SymmetryField,
+    trust: Trust,
+    ctx: &mut Context<'_>,
+) -> Result<(SymmetryField, Trust)> {
+    let loose = match trust.verdict() {
+        Verdict::Accept => trust.unfit > LOOSE,
+        Verdict::Uncertain => true,
+        Verdict::Refuse => false,
+    };
+    if !loose || land.wall.is_some() {
+        return Ok((first, trust));
+    }
+    let seeds = first.of(&trust.trusted).partners;
+    let again = settle(land, &grow(land, seeds, ctx.token()), ctx)?;
+    let sure = Trust::of(land, &again);
+    if sure.score() > trust.score() {
+        Ok((again, sure))
+    } else {
+        Ok((first, trust))
     }
 }
 
