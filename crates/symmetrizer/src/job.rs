@@ -4,6 +4,7 @@ mod arranged;
 mod bent;
 mod firm;
 mod follow;
+mod further;
 mod guard;
 pub mod kinds;
 mod measured;
@@ -206,14 +207,15 @@ fn made(
     let mut part = false;
     let mut done = guard::mended(&before, done, ctx)?;
     if let Some(state) = merged.take_if(|_| guard::spoiled(&before, &done)) {
-        part = true;
         let again = guard::Again {
             before: &state,
             asymmetry: mean,
             params,
             settings,
         };
-        done = again.part((&mut bend, &mut bent), ctx)?;
+        let whole;
+        (done, whole) = again.part((&mut bend, &mut bent), ctx)?;
+        part = !whole;
     }
     let faces = FaceSamples::of(&before);
     let input = AsymmetryReport::new(&measured, &before.working.normalization);
@@ -246,14 +248,14 @@ fn made(
         };
         job.conclude(done, mesh, &again, ctx)?;
         if let Some(state) = merged.filter(|_| guard::worse(&job)) {
-            part = true;
             let again = guard::Again {
                 before: &state,
                 asymmetry: mean,
                 params,
                 settings,
             };
-            let done = again.part((&mut job.report.bend, &mut job.bend), ctx)?;
+            let (done, whole) = again.part((&mut job.report.bend, &mut job.bend), ctx)?;
+            part = !whole;
             job.conclude(done, mesh, &detect, ctx)?;
         }
         guard::give_up_on_worse(&mut job, mesh, part, &detect, ctx)?;

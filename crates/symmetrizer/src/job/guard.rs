@@ -4,6 +4,7 @@ use crate::context::Context;
 use crate::detect::DetectParams;
 use crate::error::Result;
 use crate::job::bent::{Bent, unbend_part};
+use crate::job::further::further;
 use crate::job::{Detected, Symmetrized};
 use crate::optimize::schedule::Settings;
 use crate::optimize::{Optimized, Outcome, Step, mend, optimize};
@@ -60,26 +61,25 @@ pub(super) struct Again<'a> {
 
 impl Again<'_> {
     /// The work once more, with no more made symmetric than a symmetry holds for: that about a bent axis, `looked`
-    /// at before, where it holds for most of the shape, else the main mirror.
+    /// at before, where it holds for most of the shape, else the main mirror; and whether it is the whole in the end.
     pub fn part(
         self,
         looked: (&mut Option<BendReport>, &mut Option<Bent>),
         ctx: &mut Context<'_>,
-    ) -> Result<Optimized> {
+    ) -> Result<(Optimized, bool)> {
         let (before, settings) = (self.before, self.settings);
         let straighten = &self.params.straighten;
         let unbent = unbend_part(before, self.asymmetry, looked, straighten, settings, ctx)?;
-        let done = match unbent {
-            Some(done) => done,
-            None => {
-                let settings = Settings {
-                    part: true,
-                    ..settings
-                };
-                optimize(&before.working.surface, &before.detection, settings, ctx)?
-            }
+        if let Some(done) = unbent {
+            let done = mended(before, done, ctx)?;
+            return further(before, done, straighten, settings, ctx);
+        }
+        let settings = Settings {
+            part: true,
+            ..settings
         };
-        mended(before, done, ctx)
+        let done = optimize(&before.working.surface, &before.detection, settings, ctx)?;
+        Ok((mended(before, done, ctx)?, false))
     }
 }
 
