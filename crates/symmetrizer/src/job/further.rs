@@ -16,9 +16,12 @@ use crate::straighten::StraightenParams;
 use crate::transform::Plane;
 
 /// Further bends at the most.
-const MOST: usize = 2;
+const MOST: usize = 3;
 /// What is undone further leaves this share of the mean asymmetry at the most.
-const GAIN: f64 = 0.85;
+const GAIN: f64 = 0.93;
+
+/// A further bend is undone from so many degrees on: what is left of a shape by then is small.
+const LEAST: f64 = 4.0;
 
 /// What was `done` to a part of the shape `before`, and then to what is bent of the result; and whether that is the whole.
 pub(super) fn further(
@@ -103,6 +106,10 @@ fn once_more(
     settings: Settings<'_>,
     ctx: &mut Context<'_>,
 ) -> Result<Option<(Optimized, BendReport)>> {
+    let params = &StraightenParams {
+        min_bend: params.min_bend.min(LEAST),
+        ..params.clone()
+    };
     let looked = unbend(&state.found, state.mean, params, settings, ctx)?;
     let (mut report, mut bent) = (looked.report, looked.bent);
     let done = match looked.done {
