@@ -6,7 +6,7 @@ use crate::shape::surface::Surface;
 
 /// Points of the widest fit stand for cells this wide, in units of its radius: as many as in the narrower ones are enough, and
 /// without it nine tenths of all points fitted would be its own.
-const CELL: f64 = 1.0 / 6.0;
+const CELL: f64 = 1.0 / 9.0;
 
 /// Clouds for fits at the radii r0, 2 r0, 4 r0.
 pub struct Clouds {
