@@ -71,3 +71,19 @@ pub fn seeds(land: &Land<'_>, mirrors: &[Isometry], claim: f64) -> Vec<Option<Pa
     }
     best.into_iter().map(|b| b.map(|(_, q)| q)).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Doubtful mirrors are taken with sure ones only.
+    #[test]
+    fn doubtful_mirrors_join_sure_ones() {
+        let one = || vec![Isometry::identity()];
+        let choices = |sure, doubtful| Mirrors { sure, doubtful }.choices();
+        let counts = |all: Vec<Vec<Isometry>>| all.iter().map(Vec::len).collect::<Vec<_>>();
+        assert_eq!(counts(choices(one(), one())), [1, 2]);
+        assert_eq!(counts(choices(one(), Vec::new())), [1]);
+        assert_eq!(counts(choices(Vec::new(), one())), [0]);
+    }
+}

@@ -213,3 +213,33 @@ fn refine_plane(plane: &Plane, contacts: &[Contact]) -> Plane {
         offset: offset - step[2] + normal.dot(&center),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mirror(turn: f64, offset: f64) -> Isometry {
+        let normal = Vector::new(turn.cos(), turn.sin(), 0.0);
+        Isometry::mirror(&Plane { normal, offset })
+    }
+
+    /// Steps that shrink by a share lead to where they end; steps that turn back, or aside, lead nowhere.
+    #[test]
+    fn a_leap_ends_where_the_steps_do() {
+        let at = |k: i32| mirror(0.02 * 0.8_f64.powi(k), 0.1 + 0.01 * 0.8_f64.powi(k));
+        let far = leap(&at(0), &at(1), &at(2)).expect("the steps shrink");
+        let left = |t: &Isometry| {
+            let end = mirror(0.0, 0.1);
+            (t.linear - end.linear).norm() + (t.translation - end.translation).norm()
+        };
+        assert!(
+            left(&far) < 0.02 * left(&at(2)),
+            "{} of {}",
+            left(&far),
+            left(&at(2))
+        );
+        assert!(leap(&at(0), &at(1), &at(0)).is_none());
+        let aside = mirror(0.02 * 0.8, 0.1);
+        assert!(leap(&mirror(0.02, 0.1), &aside, &mirror(0.02 * 0.8, 0.103)).is_none());
+    }
+}

@@ -37,3 +37,49 @@ impl Clouds {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Point;
+    use crate::sample::signature::SCALES;
+
+    /// On a finely triangulated sphere the widest fit looks at fewer points, and sees the same curvature.
+    #[test]
+    fn the_widest_fit_sees_the_same_from_fewer_points() {
+        let (rows, columns) = (200_u32, 400_u32);
+        let mut positions = Vec::new();
+        for i in 0..=rows {
+            for j in 0..columns {
+                let theta = std::f64::consts::PI * f64::from(i) / f64::from(rows);
+                let phi = std::f64::consts::TAU * f64::from(j) / f64::from(columns);
+                let (s, c) = theta.sin_cos();
+                positions.push(Point::new(s * phi.cos(), s * phi.sin(), c));
+            }
+        }
+        let at = |i: u32, j: u32| i * columns + j % columns;
+        let mut triangles = Vec::new();
+        for i in 0..rows {
+            for j in 0..columns {
+                triangles.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
+                triangles.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
+            }
+        }
+        let surface = Surface::new(positions, triangles.into());
+        let clouds = Clouds::new(&surface, 0.1);
+        let x = Point::new(1.0, 0.0, 0.0);
+        let count = |(cloud, _): (&Cloud, f64)| {
+            let mut count = 0;
+            cloud.each_facing(&x, &x.coords, 0.4, |_, _| count += 1);
+            count
+        };
+        let (fine, wide) = (count(clouds.at(0)), count(clouds.at(SCALES - 1)));
+        assert!(4 * wide < fine, "{wide} of {fine}");
+        for scale in 0..SCALES {
+            let (cloud, radius) = clouds.at(scale);
+            let fit = cloud.fit(&x, &x.coords, radius).expect("enough points");
+            assert!((fit.k1 - 1.0).abs() < 0.05 && (fit.k2 - 1.0).abs() < 0.05);
+            assert!((fit.coverage - 1.0).abs() < 0.15, "{}", fit.coverage);
+        }
+    }
+}

@@ -142,3 +142,37 @@ fn barycentric(location: &TrianglePointLocation) -> [f64; 3] {
 fn to_glam(p: &Point) -> GlamVector {
     GlamVector::new(p.x, p.y, p.z)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::models::Creature;
+    use crate::shape::working::Working;
+
+    /// With a guess, good or bad, the answer is that without one, to the last bit.
+    #[test]
+    fn a_guess_changes_nothing() {
+        let surface = Working::new(&Creature::default().mesh())
+            .expect("usable")
+            .surface;
+        let closest = ClosestPoint::new(&surface);
+        let faces = surface.triangles.len() as u32;
+        let mut found = 0;
+        for k in 0..600_u32 {
+            let face = k * (faces / 600);
+            let normal = surface.face_normals[face as usize];
+            let [a, b, c] = surface.corners(face);
+            let centre = Point::from((a.coords + b.coords + c.coords) / 3.0);
+            // On the surface, at a corner, and off it.
+            for x in [centre, a, centre + 0.01 * normal] {
+                let alone = closest.nearest_facing(&x, &normal, 0.75, 0.02);
+                found += u32::from(alone.is_some());
+                for guess in [face, (face + 1) % faces, (face + faces / 2) % faces] {
+                    let guessed = closest.nearest_facing_from(&x, &normal, 0.75, 0.02, Some(guess));
+                    assert_eq!(alone, guessed);
+                }
+            }
+        }
+        assert!(found > 1700, "{found}");
+    }
+}
