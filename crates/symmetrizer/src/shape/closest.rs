@@ -77,8 +77,8 @@ impl ClosestPoint {
         let q = to_glam(query);
         let within = guess.filter(|&face| faces(face)).map(|face| {
             let there = self.tree.triangle(face).project_local_point(q, false);
-            // A little more, so that of faces at one distance the same one is found as without a guess.
-            (there.point - q).length() * (1.0 + 1e-9) + f64::MIN_POSITIVE.sqrt()
+            // A little more, in working units, so that of faces at one distance the same one is found as without a guess.
+            (there.point - q).length() * (1.0 + 1e-9) + ROUNDING
         });
         let within = within.map_or(max_distance, |d| d.min(max_distance));
         self.search(query, within, faces)
@@ -121,6 +121,9 @@ impl ClosestPoint {
         })
     }
 }
+
+/// Distances below this are nothing, fraction of L.
+const ROUNDING: f64 = 1e-12;
 
 /// The squared distance of a point from a box, 0 inside.
 fn square_distance(bounds: &Aabb, x: GlamVector) -> f64 {
