@@ -123,9 +123,14 @@ pub fn contract_whole(
     let mut done = Contracted::start(moving, plane);
     let rounds = params.final_steps.div_ceil(params.redetect_every).max(1);
     let mut couples = Vec::new();
+    let mut met = false;
     for k in 0..params.final_steps {
         ctx.progress(k as f64 / params.final_steps as f64)?;
-        if k % params.redetect_every == 0 {
+        let anew = k % params.redetect_every == 0;
+        if met && !anew {
+            continue;
+        }
+        if anew {
             let round = k / params.redetect_every;
             let narrowing = round as f64 / rounds as f64;
             let reach = WIDE * (1.0 - narrowing) + NARROW * narrowing;
@@ -133,13 +138,18 @@ pub fn contract_whole(
             let wanted = |s: u32| wanted(&snapshot.samples.list[s as usize]);
             couples = guided_couples(&snapshot, &done.plane, reach, 0.3, wanted);
         }
+        let was = done.cost[1];
         if !advance(moving, &couples, &mut done, params, ctx)? {
             break;
         }
+        // Couples that have come together as far as they will wait to be chosen anew.
+        met = !anew && done.cost[1] > STALLED * was;
     }
     Ok(done)
 }
 
+/// A step that leaves more than this share of the cost has nothing left to gain from its couples.
+const STALLED: f64 = 0.97;
 /// Reach of closest points in the first and in the last round, fractions of L.
 const WIDE: f64 = 0.1;
 const NARROW: f64 = 0.04;
