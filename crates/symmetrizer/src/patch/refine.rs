@@ -39,33 +39,6 @@ pub fn refine(t: &Isometry, class: Class, contacts: &[Contact]) -> Isometry {
     }
 }
 
-/// Steps shrink by this share at least where it is foreseen where they end, and by no less than this,
-const SHRINKING: std::ops::Range<f64> = 0.3..0.9;
-/// where they point the same way to within this share of their length.
-const ASTRAY: f64 = 0.5;
-
-/// Where a mirror that was refined from `before` to `t` to `next` comes to if its steps go on to shrink as they did (Aitken 1926): on a
-/// round shape the surface slides under the mirror, and each step makes good a tenth of what is left. `None` where they
-/// do not point the same way.
-pub fn leap(before: &Isometry, t: &Isometry, next: &Isometry) -> Option<Isometry> {
-    let step = |a: &Isometry, b: &Isometry| (b.linear - a.linear, b.translation - a.translation);
-    let dot = |a: &(M3<f64>, Vector), b: &(M3<f64>, Vector)| a.0.dot(&b.0) + a.1.dot(&b.1);
-    let (first, second) = (step(before, t), step(t, next));
-    let ratio = dot(&second, &first) / dot(&first, &first);
-    let aside = dot(&second, &second) - ratio * ratio * dot(&first, &first);
-    let is_straight = aside <= ASTRAY * ASTRAY * dot(&second, &second);
-    if !is_straight || ratio.is_nan() || ratio < SHRINKING.start {
-        return None;
-    }
-    let ratio = ratio.min(SHRINKING.end);
-    let far = ratio / (1.0 - ratio);
-    let image = Isometry {
-        linear: next.linear + far * second.0,
-        translation: next.translation + far * second.1,
-    };
-    Some(Isometry::mirror(&image.nearest_mirror(&Point::origin())))
-}
-
 /// Weights 1 / (1 + r^2 / s^2)^2 by the distance r of a contact's ends under `t` (Geman and
 /// McClure): what holds to within about s counts, what merely reaches the tolerance does not.
 pub fn weigh(t: &Isometry, contacts: &mut [Contact], s: f64) {
@@ -211,35 +184,5 @@ fn refine_plane(plane: &Plane, contacts: &[Contact]) -> Plane {
     Plane {
         normal,
         offset: offset - step[2] + normal.dot(&center),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn mirror(turn: f64, offset: f64) -> Isometry {
-        let normal = Vector::new(turn.cos(), turn.sin(), 0.0);
-        Isometry::mirror(&Plane { normal, offset })
-    }
-
-    /// Steps that shrink by a share lead to where they end; steps that turn back, or aside, lead nowhere.
-    #[test]
-    fn a_leap_ends_where_the_steps_do() {
-        let at = |k: i32| mirror(0.02 * 0.8_f64.powi(k), 0.1 + 0.01 * 0.8_f64.powi(k));
-        let far = leap(&at(0), &at(1), &at(2)).expect("the steps shrink");
-        let left = |t: &Isometry| {
-            let end = mirror(0.0, 0.1);
-            (t.linear - end.linear).norm() + (t.translation - end.translation).norm()
-        };
-        assert!(
-            left(&far) < 0.02 * left(&at(2)),
-            "{} of {}",
-            left(&far),
-            left(&at(2))
-        );
-        assert!(leap(&at(0), &at(1), &at(0)).is_none());
-        let aside = mirror(0.02 * 0.8, 0.1);
-        assert!(leap(&mirror(0.02, 0.1), &aside, &mirror(0.02 * 0.8, 0.103)).is_none());
     }
 }

@@ -6,7 +6,7 @@ use crate::patch::grow::Candidate;
 use crate::patch::judge::{confusion, too_small, unlike};
 use crate::patch::params::PatchParams;
 use crate::patch::reach::Reach;
-use crate::patch::refine::{leap, refine, weigh};
+use crate::patch::refine::{refine, weigh};
 use crate::patch::symmetry::PatchPair;
 use crate::transform::{Class, Isometry};
 
@@ -68,9 +68,8 @@ const MOTION: [Round; 6] = [
 const WELL: f64 = 0.4;
 /// Share of the least area that a candidate must reach while it settles.
 const HOPEFUL: f64 = 0.8;
-/// Rounds of settling at the most; mirrors leap ahead.
+/// Rounds of settling at the most.
 const SETTLING: usize = 12;
-const MIRROR_SETTLING: usize = 7;
 /// The round after which a motion is refused that fills the tolerance to so many times what a symmetry does at the most.
 const PASSING: usize = 2;
 const PASSES: f64 = 1.25;
@@ -145,12 +144,7 @@ fn settle(
     }
     let last = rounds.last().map_or(1.0, |r| r.tolerance) * tolerance;
     let mut spread = 0.0;
-    let mut before = None;
-    let rounds = match class {
-        Class::Mirror => MIRROR_SETTLING,
-        Class::Proper | Class::Improper => SETTLING,
-    };
-    for round in 0..rounds {
+    for round in 0..SETTLING {
         let grown = reach.grow(&t, last, u32::MAX);
         if grown.is_empty() {
             return Err(NOWHERE.into());
@@ -172,16 +166,10 @@ fn settle(
             .iter()
             .map(|c| (next.apply(&c.x) - t.apply(&c.x)).norm_squared());
         let moved = (moved.sum::<f64>() / contacts.len() as f64).sqrt();
+        t = next;
         if moved < SETTLED {
-            t = next;
             break;
         }
-        let leap = match before {
-            Some(before) if *class == Class::Mirror => leap(&before, &t, &next),
-            _ => None,
-        };
-        before = leap.is_none().then_some(t);
-        t = leap.unwrap_or(next);
     }
     Ok(Settled { t, spread })
 }
