@@ -55,12 +55,6 @@ const LEADING: usize = 6;
 const STEPS: usize = 50;
 const NEARLY: f64 = 1e-2;
 const AT_REST: f64 = 1e-4;
-/// Starts at the most, the densest: several times the modes that are looked at.
-const STARTS: usize = 1500;
-/// The densest starts are climbed from first: what comes within this many kernel radii of where they end need not be climbed to its
-/// end, where the votes, and the work, are most.
-const FIRST: usize = 32;
-const CAPTURED: f64 = 0.4;
 /// With fewer votes within the kernel's radius a place is no start: a mode of as many as a symmetry has is higher elsewhere.
 const SOME: usize = 3;
 
@@ -110,8 +104,9 @@ impl Votes {
 
     /// The kernel density at a point: the sum of w (1 - |phi - x|^2 / h^2).
     pub fn density(&self, x: &Phi, h: f64) -> f64 {
-        self.within(x, h)
-            .map(|(i, d2)| self.weights[i] * (1.0 - d2 / (h * h)))
+        let near = self.within(x, h);
+        near.iter()
+            .map(|&(i, d2)| self.weights[i as usize] * (1.0 - d2 / (h * h)))
             .sum()
     }
 
@@ -120,60 +115,54 @@ impl Votes {
     pub fn clusters(&self, params: &ClusterParams) -> Vec<Cluster> {
         let h = params.bandwidth;
         let starts = self.starts(h);
-        let (first, others) = starts.split_at(FIRST.min(starts.len()));
-        let climb = |starts: &[usize], summits: &[Cluster]| -> Vec<Cluster> {
-            let near = starts
-                .par_iter()
-                .map(|&start| self.climb(self.phi[start], h, NEARLY, summits));
-            near.flatten().collect()
-        };
-        let summits = apart(climb(first, &[]), h);
-        let rest = climb(others, &summits);
-        let near = apart(summits.into_iter().chain(rest).collect(), h);
-        let modes = near
+        let near = starts
             .into_par_iter()
-            .map(|m| self.climb(m.mode, h, AT_REST, &[]));
+            .map(|start| self.climb(self.phi[start], h, NEARLY));
+        let near = apart(near.flatten().collect(), h);
+        let modes = near.into_par_iter().map(|m| self.climb(m.mode, h, AT_REST));
         apart(modes.flatten().collect(), h)
     }
 
     /// Mean shift from `start` with kernel radius `h` until it moves by less than `rest` of that; `None` where no vote is left
-    /// near it, and where it comes so near one of `summits` that it would end there.
-    fn climb(&self, start: Phi, h: f64, rest: f64, summits: &[Cluster]) -> Option<Cluster> {
+    /// near it.
+    fn climb(&self, start: Phi, h: f64, rest: f64) -> Option<Cluster> {
         let mut mode = start;
         for _ in 0..STEPS {
-            let square = (CAPTURED * h).powi(2);
-            if summits
-                .iter()
-                .any(|s| (s.mode - mode).norm_squared() < square)
-            {
-                return None;
-            }
-            let (mut total, mut sum) = (0.0, Phi::zeros());
-            for (i, _) in self.within(&mode, h) {
-                total += self.weights[i];
-                sum.axpy(self.weights[i], &self.phi[i], 1.0);
-            }
+            let near = self.within(&mode, h);
+            let total: f64 = near.iter().map(|&(i, _)| self.weights[i as usize]).sum();
             if total <= 0.0 {
                 return None;
             }
-            let mean = sum / total;
+            let mean = near
+                .iter()
+                .map(|&(i, _)| self.phi[i as usize] * (self.weights[i as usize] / total))
+                .sum::<Phi>();
             let moved = (mean - mode).norm();
             mode = mean;
             if moved < rest * h {
                 break;
             }
         }
-        let mut votes: Vec<u32> = self.within(&mode, h).map(|(i, _)| i as u32).collect();
+        let near = self.within(&mode, h);
+        let height = near
+            .iter()
+            .map(|&(i, d2)| self.weights[i as usize] * (1.0 - d2 / (h * h)))
+            .sum();
+        let mut votes: Vec<u32> = near
+            .iter()
+            .filter(|&&(i, _)| self.weights[i as usize] > 0.0)
+            .map(|&(i, _)| i)
+            .collect();
         votes.sort_unstable();
         Some(Cluster {
-            height: self.density(&mode, h),
             mode,
+            height,
             votes,
         })
     }
 
-    /// Where to climb from, the densest first: of one vote per cell of side h/2 those that have some votes around them and that
-    /// none of the others within h/2 exceeds in density. In fewer axes than the six of a motion a cell would hold several modes.
+    /// Where to climb from: of one vote per cell of side h/2 those that have some votes around them and that none of the others
+    /// within h/2 exceeds in density. In fewer axes than the six of a motion a cell would hold several modes.
     fn starts(&self, h: f64) -> Vec<usize> {
         let mut cells = BTreeMap::new();
         let origin = self.axes * self.phi.iter().sum::<Phi>() / self.phi.len().max(1) as f64;
@@ -194,34 +183,34 @@ impl Votes {
             if density[i] == f64::NEG_INFINITY {
                 return false;
             }
-            let mut near = self.within(&self.phi[i], 0.5 * h);
-            !near.any(|(k, _)| density[k].total_cmp(&density[i]).then(i.cmp(&k)).is_gt())
+            let near = self.within(&self.phi[i], 0.5 * h);
+            let higher = |&(k, _): &(u32, f64)| {
+                let k = k as usize;
+                density[k].total_cmp(&density[i]).then(i.cmp(&k)).is_gt()
+            };
+            !near.iter().any(higher)
         };
-        let mut starts: Vec<usize> = net.into_par_iter().filter(highest).collect();
-        starts.sort_by(|&a, &b| density[b].total_cmp(&density[a]).then(a.cmp(&b)));
-        starts.truncate(STARTS);
-        starts
+        net.into_par_iter().filter(highest).collect()
     }
 
     /// The density at a vote with some others within h; `None` at one that has hardly any.
     fn crowded(&self, vote: usize, h: f64) -> Option<f64> {
-        let (mut count, mut density) = (0, 0.0);
-        for (i, d2) in self.within(&self.phi[vote], h) {
-            count += 1;
-            density += self.weights[i] * (1.0 - d2 / (h * h));
-        }
-        (count >= SOME).then_some(density)
+        let near = self.within(&self.phi[vote], h);
+        let count = near.iter().filter(|(i, _)| self.weights[*i as usize] > 0.0);
+        let density = near
+            .iter()
+            .map(|&(i, d2)| self.weights[i as usize] * (1.0 - d2 / (h * h)));
+        (count.count() >= SOME).then(|| density.sum())
     }
 
-    /// Votes within `h` of `x` that count, with their squared distances, in the order of the index.
-    fn within(&self, x: &Phi, h: f64) -> impl Iterator<Item = (usize, f64)> + '_ {
+    /// Votes within `h` of `x` with their squared distances, in the order of the index.
+    fn within(&self, x: &Phi, h: f64) -> Vec<(u32, f64)> {
         let y: [f64; LEADING] = (self.axes * x).into();
-        let x = *x;
-        let counting = self.index.around(&y, h).map(|i| i as usize);
-        let counting = counting.filter(|&i| self.weights[i] > 0.0);
-        counting
-            .map(move |i| (i, (self.phi[i] - x).norm_squared()))
-            .filter(move |&(_, d2)| d2 < h * h)
+        self.index
+            .around(&y, h)
+            .map(|i| (i, (self.phi[i as usize] - x).norm_squared()))
+            .filter(|&(_, d2)| d2 < h * h)
+            .collect()
     }
 }
 

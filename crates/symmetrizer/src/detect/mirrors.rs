@@ -38,7 +38,8 @@ pub fn mirrors(
         highest: 0.0,
     };
     wide.take(surroundings, clusters, cloud, &mut found, ctx)?;
-    if found.symmetries.is_empty() && found.doubtful.is_empty() {
+    let large = |s: &Symmetry| s.area_fraction >= MIN_SUPPORTED;
+    if found.symmetries.is_empty() && !found.doubtful.iter().any(large) {
         return Ok(found);
     }
     if let Some(mut rest) = rest(surroundings, &found.symmetries, ctx)? {

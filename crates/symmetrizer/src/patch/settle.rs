@@ -3,7 +3,7 @@
 
 use crate::patch::ground::{Ground, contacts, touch};
 use crate::patch::grow::Candidate;
-use crate::patch::judge::{confusion, too_small, unlike};
+use crate::patch::judge::too_small;
 use crate::patch::params::PatchParams;
 use crate::patch::reach::Reach;
 use crate::patch::refine::{refine, weigh};
@@ -73,10 +73,6 @@ const SETTLING: usize = 12;
 /// The round after which a motion is refused that fills the tolerance to so many times what a symmetry does at the most.
 const PASSING: usize = 2;
 const PASSES: f64 = 1.25;
-/// Mirrors are looked at in so many places before they settle, and refused with so many times the confusion that a symmetry may
-/// have: of 680 on the models none came from above .28 to less than .18.
-const LOOKED_AT: usize = 256;
-const UNLIKELY: f64 = 1.6;
 /// Settled: contacts move by less than this from round to round, fraction of L.
 const SETTLED: f64 = 2e-5;
 
@@ -139,9 +135,6 @@ fn settle(
         }
         t = refine(&t, *class, &contacts);
     }
-    if *class == Class::Mirror && !candidate.near {
-        promising(ground, reach.grow(&t, tolerance, u32::MAX), params)?;
-    }
     let last = rounds.last().map_or(1.0, |r| r.tolerance) * tolerance;
     let mut spread = 0.0;
     for round in 0..SETTLING {
@@ -193,21 +186,6 @@ fn hopeful(ground: &Ground<'_>, grown: &[PatchPair], least: f64) -> Result<(), S
     let at_most = 2.0 * grown.len() as f64 / ground.samples.list.len() as f64;
     if at_most < HOPEFUL * least {
         return Err(too_small(at_most));
-    }
-    Ok(())
-}
-
-/// Refuses a mirror at about its place that partners look much too unlike for: as it comes to rest they change little.
-fn promising(
-    ground: &Ground<'_>,
-    grown: Vec<PatchPair>,
-    params: &PatchParams,
-) -> Result<(), String> {
-    let stride = grown.len().div_ceil(LOOKED_AT).max(1);
-    let some: Vec<PatchPair> = grown.into_iter().step_by(stride).collect();
-    let confusion = confusion(ground, &some);
-    if confusion > UNLIKELY * params.max_confusion {
-        return Err(unlike(confusion));
     }
     Ok(())
 }

@@ -1,7 +1,6 @@
 //! Samples of a surface and their signatures (section 2).
 
 pub mod blue_noise;
-mod clouds;
 pub mod crisp;
 mod moments;
 pub mod outline;

@@ -9,12 +9,10 @@
 //! weight.
 
 use std::f64::consts::TAU;
-use std::sync::LazyLock;
 
 use nalgebra::{Complex, SMatrix, SVector};
 
 use crate::geom::{Point, Vector};
-use crate::sample::clouds::Clouds;
 use crate::sample::moments::{Moments, ORDERS, UNKNOWNS, monomial};
 use crate::sample::signature::SCALES;
 use crate::shape::curvature::Cloud;
@@ -145,11 +143,10 @@ impl Harmonics {
         Self(rows)
     }
 
-    /// The relief at `x` in `frame` at the radii of `clouds`.
-    pub fn relief(&self, clouds: &Clouds, x: &Point, frame: &Frame) -> Relief {
+    /// The relief at `x` in `frame` at the radii r0, 2 r0, 4 r0.
+    pub fn relief(&self, cloud: &Cloud, x: &Point, frame: &Frame, r0: f64) -> Relief {
         Relief(std::array::from_fn(|s| {
-            let (cloud, radius) = clouds.at(s);
-            self.fit(cloud, x, frame, radius)
+            self.fit(cloud, x, frame, r0 * f64::from(1 << s))
         }))
     }
 
@@ -285,16 +282,6 @@ impl Sizes {
     }
 }
 
-/// Turns at which agreement is looked at before it is polished.
-const STEPS: usize = 24;
-/// For each of them e^(-i m alpha), m = 0 to the highest order.
-static TURNS: LazyLock<[[Complex<f64>; ORDERS + 1]; STEPS]> = LazyLock::new(|| {
-    std::array::from_fn(|k| {
-        let alpha = TAU / STEPS as f64 * k as f64;
-        std::array::from_fn(|m| Complex::from_polar(1.0, -(m as f64) * alpha))
-    })
-});
-
 /// The agreement of two reliefs as a function of the turn: Re sum g_m e^(-i m alpha).
 struct Correlation {
     g: [Complex<f64>; ORDERS + 1],
@@ -338,23 +325,20 @@ impl Correlation {
     }
 
     fn optima(&self, tolerance: f64) -> Vec<Alignment> {
-        let agreement = TURNS.each_ref().map(|powers| {
-            let terms = self.g.iter().zip(powers);
-            terms.map(|(g, z)| g.re * z.re - g.im * z.im).sum::<f64>()
-        });
-        // Where the gap is half as much again.
-        let least = 0.5 * self.energy * (1.0 - 0.5 * (1.5 * tolerance).powi(2));
+        const STEPS: usize = 24;
+        let step = TAU / STEPS as f64;
+        let gaps: [f64; STEPS] = std::array::from_fn(|k| self.gap(step * k as f64));
         (0..STEPS)
             .filter_map(|k| {
                 let (before, here, after) = (
-                    agreement[(k + STEPS - 1) % STEPS],
-                    agreement[k],
-                    agreement[(k + 1) % STEPS],
+                    gaps[(k + STEPS - 1) % STEPS],
+                    gaps[k],
+                    gaps[(k + 1) % STEPS],
                 );
-                if here < before || here <= after || here < least {
+                if here > before || here >= after || here > 1.5 * tolerance {
                     return None;
                 }
-                let turn = self.polish(TAU / STEPS as f64 * k as f64);
+                let turn = self.polish(step * k as f64);
                 let gap = self.gap(turn);
                 (gap <= tolerance && self.directedness(turn) > gap)
                     .then_some(Alignment { turn, gap })
@@ -411,8 +395,8 @@ mod tests {
     }
 
     fn relief_of(surface: &Surface, frame: &Frame, x: &Point) -> Relief {
-        let clouds = Clouds::new(surface, 0.06);
-        Harmonics::new().relief(&clouds, x, frame)
+        let cloud = Cloud::new(surface, 0.02);
+        Harmonics::new().relief(&cloud, x, frame, 0.06)
     }
 
     /// The turn of the frame is found again, for a moved and for a mirrored copy, and only there.

@@ -8,12 +8,12 @@ use crate::context::Context;
 use crate::error::{Error, Result};
 use crate::geom::{Ambient, Point, PointIndex, Vector, any_orthogonal};
 use crate::sample::blue_noise::blue_noise;
-use crate::sample::clouds::Clouds;
 use crate::sample::crisp::Corners;
 use crate::sample::relief::{Frame, Harmonics, Relief};
 use crate::sample::signature::{Signature, base_radius, describe, normal};
 use crate::sample::{outline, profile};
 use crate::shape::ClosestPoint;
+use crate::shape::curvature::Cloud;
 use crate::shape::surface::{Surface, SurfacePoint};
 use crate::shape::wall::Wall;
 
@@ -104,7 +104,7 @@ impl Samples {
 
 /// What samples are fitted to.
 struct Fitted {
-    clouds: Clouds,
+    cloud: Cloud,
     corners: Corners,
     harmonics: Harmonics,
 }
@@ -152,11 +152,11 @@ impl<'a> Describer<'a> {
             return self.on_outline(wall, at);
         }
         let Fitted {
-            clouds,
+            cloud,
             corners,
             harmonics,
         } = self.fitted();
-        let (signature, e1, n) = describe(self.surface, clouds, at);
+        let (signature, e1, n) = describe(self.surface, cloud, at, self.r0);
         let frame = Frame {
             n,
             e1: any_orthogonal(&n),
@@ -170,7 +170,7 @@ impl<'a> Describer<'a> {
             signature,
             e1,
             frame,
-            relief: harmonics.relief(clouds, &position, &frame),
+            relief: harmonics.relief(cloud, &position, &frame, self.r0),
         }
     }
 
@@ -181,20 +181,20 @@ impl<'a> Describer<'a> {
             return (sample.frame, sample.relief);
         }
         let Fitted {
-            clouds, harmonics, ..
+            cloud, harmonics, ..
         } = self.fitted();
         let x = self.surface.point(at);
-        let n = normal(self.surface, clouds, at);
+        let n = normal(self.surface, cloud, at, self.r0);
         let frame = Frame {
             n,
             e1: any_orthogonal(&n),
         };
-        (frame, harmonics.relief(clouds, &x, &frame))
+        (frame, harmonics.relief(cloud, &x, &frame, self.r0))
     }
 
     fn fitted(&self) -> &Fitted {
         self.fitted.get_or_init(|| Fitted {
-            clouds: Clouds::new(self.surface, self.r0),
+            cloud: Cloud::new(self.surface, self.r0 / 4.0),
             corners: Corners::new(self.surface),
             harmonics: Harmonics::new(),
         })

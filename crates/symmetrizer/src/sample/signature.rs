@@ -1,8 +1,7 @@
 //! The signature of a sample: its curvatures at three radii, in a form that mirrors leave alone.
 
 use crate::geom::Vector;
-use crate::sample::clouds::Clouds;
-use crate::shape::curvature::Curvature;
+use crate::shape::curvature::{Cloud, Curvature};
 use crate::shape::surface::{Surface, SurfacePoint};
 
 /// The number of radii: r0, 2 r0, 4 r0 (docs/definitions.md: r0 = 2.5 median edges, within 0.02 and 0.1 L).
@@ -44,16 +43,14 @@ pub fn base_radius(surface: &Surface) -> f64 {
 /// where the curvatures differ enough to define one) and the fitted normal of that radius.
 pub fn describe(
     surface: &Surface,
-    clouds: &Clouds,
+    cloud: &Cloud,
     at: &SurfacePoint,
+    r0: f64,
 ) -> (Signature, Option<Vector>, Vector) {
     let x = surface.point(at);
     let n = surface.normal(at);
-    let radius = |s: usize| clouds.at(s).1;
-    let fits: [Option<Curvature>; SCALES] = std::array::from_fn(|s| {
-        let (cloud, radius) = clouds.at(s);
-        cloud.fit(&x, &n, radius)
-    });
+    let radius = |s: usize| r0 * f64::from(1 << s);
+    let fits: [Option<Curvature>; SCALES] = std::array::from_fn(|s| cloud.fit(&x, &n, radius(s)));
     let signature = std::array::from_fn(|s| {
         let k = fits[s].filter(|k| k.coverage > MIN_COVERAGE)?;
         Some([(k.k1 * radius(s)).asinh(), (k.k2 * radius(s)).asinh()])
@@ -66,10 +63,9 @@ pub fn describe(
 }
 
 /// The normal that [`describe`] gives.
-pub fn normal(surface: &Surface, clouds: &Clouds, at: &SurfacePoint) -> Vector {
+pub fn normal(surface: &Surface, cloud: &Cloud, at: &SurfacePoint, r0: f64) -> Vector {
     let n = surface.normal(at);
-    let (cloud, radius) = clouds.at(1);
-    let fit = cloud.fit(&surface.point(at), &n, radius);
+    let fit = cloud.fit(&surface.point(at), &n, 2.0 * r0);
     fit.map_or(n, |k| k.normal)
 }
 

@@ -78,13 +78,6 @@ impl Cloud {
         }
     }
 
-    /// The same with the points of each cube of side `cell` made one; `None` where hardly any cube has two.
-    pub fn coarser(&self, cell: f64) -> Option<Self> {
-        let area: f64 = self.areas.iter().sum();
-        let in_a_cube = self.points.len() as f64 * cell * cell / area;
-        (in_a_cube > 1.5).then(|| self.thinned(cell).indexed())
-    }
-
     fn indexed(mut self) -> Self {
         let places: Vec<[f64; 3]> = self.points.iter().map(|p| p.coords.into()).collect();
         self.index = PointIndex::new(&places);
