@@ -12,6 +12,7 @@ use symmetrizer::field::trust::{Trust, Verdict};
 use symmetrizer::field::{Mirrors, Reach};
 use symmetrizer::geom::{Matrix3, Point, Vector, nearest_orthogonal};
 use symmetrizer::job::pictures;
+use symmetrizer::optimize::Step;
 use symmetrizer::shape::SurfacePoint;
 use symmetrizer::shape::models::Creature;
 use symmetrizer::shape::{ClosestPoint, Surface};
@@ -339,6 +340,26 @@ fn a_run_straightens_or_keeps_the_pose() {
     params.set("straighten.when", "\"never\"").expect("known");
     let done = symmetrize(&cow, &params, &mut Context::new(0)).expect("done");
     assert!(done.report.bend.is_none());
+}
+
+/// The trunk of the bull is bent, and its head turned on it: that shows once the trunk is straight.
+#[test]
+fn a_further_bend_shows_once_another_is_undone() {
+    let Some(path) = model("3d/bull.off") else {
+        return;
+    };
+    let job = symmetrize(&load(&path), &Params::default(), &mut Context::new(0)).expect("done");
+    let result = job.report.result.as_ref().expect("a result");
+    let bends = job.report.steps.iter().filter_map(|s| match s {
+        Step::Straighten { bend, .. } => Some(*bend),
+        _ => None,
+    });
+    let bends: Vec<f64> = bends.collect();
+    println!("bends {bends:.0?}, {:?}", result.asymmetry.mean);
+    assert!(bends.len() >= 2, "{bends:?}");
+    let before = job.report.input.shape.mean_asymmetry();
+    assert!(result.asymmetry.mean < 0.25 * before);
+    assert_eq!(result.distortion.inverted_faces, 0);
 }
 
 #[test]

@@ -19,11 +19,14 @@ use crate::transform::Plane;
 const MOST: usize = 3;
 /// What is undone further leaves this share of the mean asymmetry at the most.
 const GAIN: f64 = 0.93;
+/// A further bend is undone from this share of the least degrees on that the first must have: what is left of a shape by then is small.
+const LEAST: f64 = 0.5;
 
-/// A further bend is undone from so many degrees on: what is left of a shape by then is small.
-const LEAST: f64 = 4.0;
-
-/// What was `done` to a part of the shape `before`, and then to what is bent of the result; and whether that is the whole.
+/// What was `done` to a part of the shape `before`, and then to what is bent of the result; and whether that is the whole. The energy is that
+/// beside `before`.
+///
+/// # Errors
+/// Those of detection, measuring and the deformation.
 pub(super) fn further(
     before: &Detected,
     mut done: Optimized,
@@ -81,7 +84,7 @@ impl State {
                 .with_positions(done.positions.clone()),
             ..before.working.clone()
         };
-        let detection = ctx.stage("detect again", |ctx| {
+        let detection = ctx.stage("detect", |ctx| {
             detect(&working.surface, settings.detect, ctx)
         })?;
         let found = Detected {
@@ -91,7 +94,7 @@ impl State {
             diagonal: before.diagonal,
         };
         let known: Vec<Plane> = done.plane.into_iter().collect();
-        let measured = ctx.stage("measure again", |ctx| found.asymmetry(&known, ctx))?;
+        let measured = ctx.stage("measure", |ctx| found.asymmetry(&known, ctx))?;
         Ok(Self {
             mean: measured.mean / 100.0 * found.diagonal,
             found,
@@ -107,7 +110,7 @@ fn once_more(
     ctx: &mut Context<'_>,
 ) -> Result<Option<(Optimized, BendReport)>> {
     let params = &StraightenParams {
-        min_bend: params.min_bend.min(LEAST),
+        min_bend: LEAST * params.min_bend,
         ..params.clone()
     };
     let looked = unbend(&state.found, state.mean, params, settings, ctx)?;
