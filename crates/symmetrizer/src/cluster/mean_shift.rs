@@ -55,6 +55,8 @@ const LEADING: usize = 6;
 const STEPS: usize = 50;
 const NEARLY: f64 = 1e-2;
 const AT_REST: f64 = 1e-4;
+/// Starts at the most, the densest: several times the modes that are looked at.
+const STARTS: usize = 1500;
 /// With fewer votes within the kernel's radius a place is no start: a mode of as many as a symmetry has is higher elsewhere.
 const SOME: usize = 3;
 
@@ -104,9 +106,8 @@ impl Votes {
 
     /// The kernel density at a point: the sum of w (1 - |phi - x|^2 / h^2).
     pub fn density(&self, x: &Phi, h: f64) -> f64 {
-        let near = self.within(x, h);
-        near.iter()
-            .map(|&(i, d2)| self.weights[i as usize] * (1.0 - d2 / (h * h)))
+        self.within(x, h)
+            .map(|(i, d2)| self.weights[i] * (1.0 - d2 / (h * h)))
             .sum()
     }
 
@@ -128,41 +129,32 @@ impl Votes {
     fn climb(&self, start: Phi, h: f64, rest: f64) -> Option<Cluster> {
         let mut mode = start;
         for _ in 0..STEPS {
-            let near = self.within(&mode, h);
-            let total: f64 = near.iter().map(|&(i, _)| self.weights[i as usize]).sum();
+            let (mut total, mut sum) = (0.0, Phi::zeros());
+            for (i, _) in self.within(&mode, h) {
+                total += self.weights[i];
+                sum.axpy(self.weights[i], &self.phi[i], 1.0);
+            }
             if total <= 0.0 {
                 return None;
             }
-            let mean = near
-                .iter()
-                .map(|&(i, _)| self.phi[i as usize] * (self.weights[i as usize] / total))
-                .sum::<Phi>();
+            let mean = sum / total;
             let moved = (mean - mode).norm();
             mode = mean;
             if moved < rest * h {
                 break;
             }
         }
-        let near = self.within(&mode, h);
-        let height = near
-            .iter()
-            .map(|&(i, d2)| self.weights[i as usize] * (1.0 - d2 / (h * h)))
-            .sum();
-        let mut votes: Vec<u32> = near
-            .iter()
-            .filter(|&&(i, _)| self.weights[i as usize] > 0.0)
-            .map(|&(i, _)| i)
-            .collect();
+        let mut votes: Vec<u32> = self.within(&mode, h).map(|(i, _)| i as u32).collect();
         votes.sort_unstable();
         Some(Cluster {
+            height: self.density(&mode, h),
             mode,
-            height,
             votes,
         })
     }
 
-    /// Where to climb from: of one vote per cell of side h/2 those that have some votes around them and that none of the others
-    /// within h/2 exceeds in density. In fewer axes than the six of a motion a cell would hold several modes.
+    /// Where to climb from, the densest first: of one vote per cell of side h/2 those that have some votes around them and that
+    /// none of the others within h/2 exceeds in density. In fewer axes than the six of a motion a cell would hold several modes.
     fn starts(&self, h: f64) -> Vec<usize> {
         let mut cells = BTreeMap::new();
         let origin = self.axes * self.phi.iter().sum::<Phi>() / self.phi.len().max(1) as f64;
@@ -183,34 +175,34 @@ impl Votes {
             if density[i] == f64::NEG_INFINITY {
                 return false;
             }
-            let near = self.within(&self.phi[i], 0.5 * h);
-            let higher = |&(k, _): &(u32, f64)| {
-                let k = k as usize;
-                density[k].total_cmp(&density[i]).then(i.cmp(&k)).is_gt()
-            };
-            !near.iter().any(higher)
+            let mut near = self.within(&self.phi[i], 0.5 * h);
+            !near.any(|(k, _)| density[k].total_cmp(&density[i]).then(i.cmp(&k)).is_gt())
         };
-        net.into_par_iter().filter(highest).collect()
+        let mut starts: Vec<usize> = net.into_par_iter().filter(highest).collect();
+        starts.sort_by(|&a, &b| density[b].total_cmp(&density[a]).then(a.cmp(&b)));
+        starts.truncate(STARTS);
+        starts
     }
 
     /// The density at a vote with some others within h; `None` at one that has hardly any.
     fn crowded(&self, vote: usize, h: f64) -> Option<f64> {
-        let near = self.within(&self.phi[vote], h);
-        let count = near.iter().filter(|(i, _)| self.weights[*i as usize] > 0.0);
-        let density = near
-            .iter()
-            .map(|&(i, d2)| self.weights[i as usize] * (1.0 - d2 / (h * h)));
-        (count.count() >= SOME).then(|| density.sum())
+        let (mut count, mut density) = (0, 0.0);
+        for (i, d2) in self.within(&self.phi[vote], h) {
+            count += 1;
+            density += self.weights[i] * (1.0 - d2 / (h * h));
+        }
+        (count >= SOME).then_some(density)
     }
 
-    /// Votes within `h` of `x` with their squared distances, in the order of the index.
-    fn within(&self, x: &Phi, h: f64) -> Vec<(u32, f64)> {
+    /// Votes within `h` of `x` that count, with their squared distances, in the order of the index.
+    fn within(&self, x: &Phi, h: f64) -> impl Iterator<Item = (usize, f64)> + '_ {
         let y: [f64; LEADING] = (self.axes * x).into();
-        self.index
-            .around(&y, h)
-            .map(|i| (i, (self.phi[i as usize] - x).norm_squared()))
-            .filter(|&(_, d2)| d2 < h * h)
-            .collect()
+        let x = *x;
+        let counting = self.index.around(&y, h).map(|i| i as usize);
+        let counting = counting.filter(|&i| self.weights[i] > 0.0);
+        counting
+            .map(move |i| (i, (self.phi[i] - x).norm_squared()))
+            .filter(move |&(_, d2)| d2 < h * h)
     }
 }
 

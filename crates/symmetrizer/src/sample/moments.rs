@@ -1,7 +1,7 @@
 //! Moments of points in a disc: what a polynomial is fitted from. Their number does not grow with the points: 45 sums stand for the
 //! 120 products of 15 monomials, as x^i y^j times x^k y^l is x^(i + k) y^(j + l).
 
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, SVector};
 
 /// Degree of the polynomials.
 pub const ORDERS: usize = 4;
@@ -14,53 +14,96 @@ pub fn monomial(i: usize, j: usize) -> usize {
     n * (n + 1) / 2 + j
 }
 
+/// Points that are summed side by side.
+const LANES: usize = 4;
+/// Powers of a coordinate, up to twice the degree.
+const POWERS: usize = 2 * ORDERS + 1;
+
+type Lanes = [f64; LANES];
+
 /// Weighted sums of x^p y^q over points, p + q up to twice the degree, and of h x^i y^j: all that a fit of a polynomial needs.
 pub struct Moments {
-    of: [[f64; 2 * ORDERS + 1]; 2 * ORDERS + 1],
+    of: [[Lanes; POWERS]; POWERS],
     /// Of the height times each monomial.
-    pub height: [f64; UNKNOWNS],
+    height: [Lanes; UNKNOWNS],
+    /// Points that wait until there are as many as lanes: x, y, height, weight.
+    waiting: [Lanes; 4],
+    count: usize,
 }
 
 impl Moments {
     /// Of no points.
     pub fn new() -> Self {
         Self {
-            of: [[0.0; 2 * ORDERS + 1]; 2 * ORDERS + 1],
-            height: [0.0; UNKNOWNS],
+            of: [[[0.0; LANES]; POWERS]; POWERS],
+            height: [[0.0; LANES]; UNKNOWNS],
+            waiting: [[0.0; LANES]; 4],
+            count: 0,
         }
     }
 
     /// Adds a point of the unit disc with its height.
     pub fn add(&mut self, [x, y]: [f64; 2], h: f64, weight: f64) {
-        let mut powers = [1.0; 2 * ORDERS + 1];
-        for k in 1..powers.len() {
-            powers[k] = powers[k - 1] * x;
+        for (lanes, value) in self.waiting.iter_mut().zip([x, y, h, weight]) {
+            lanes[self.count] = value;
         }
-        let mut w = weight;
-        for (j, row) in self.of.iter_mut().enumerate() {
-            let count = powers.len() - j;
-            for (sum, x) in row[..count].iter_mut().zip(&powers) {
-                *sum += w * x;
-            }
-            if j <= ORDERS {
-                for (i, x) in powers[..=ORDERS - j].iter().enumerate() {
-                    self.height[monomial(i, j)] += w * h * x;
-                }
-            }
-            w *= y;
+        self.count += 1;
+        if self.count == LANES {
+            self.sum_up();
         }
     }
 
-    /// The matrix of the sums of products of monomials.
-    pub fn matrix(&self) -> SMatrix<f64, UNKNOWNS, UNKNOWNS> {
+    /// Adds the points that wait; lanes without one have no weight.
+    fn sum_up(&mut self) {
+        let [x, y, h, mut w] = self.waiting;
+        let mut powers = [[1.0; LANES]; POWERS];
+        for k in 1..POWERS {
+            powers[k] = product(&powers[k - 1], &x);
+        }
+        for j in 0..POWERS {
+            for i in 0..POWERS - j {
+                add(&mut self.of[j][i], &product(&w, &powers[i]));
+            }
+            if j <= ORDERS {
+                let wh = product(&w, &h);
+                for i in 0..=ORDERS - j {
+                    let sum = &mut self.height[monomial(i, j)];
+                    add(sum, &product(&wh, &powers[i]));
+                }
+            }
+            w = product(&w, &y);
+        }
+        self.waiting[3] = [0.0; LANES];
+        self.count = 0;
+    }
+
+    /// The matrix of the sums of products of monomials, and the sums of the height times each.
+    pub fn equations(
+        mut self,
+    ) -> (
+        SMatrix<f64, UNKNOWNS, UNKNOWNS>,
+        SVector<f64, UNKNOWNS>,
+    ) {
+        self.sum_up();
         let all = || (0..=ORDERS).flat_map(|n| (0..=n).map(move |j| (n - j, j)));
         let mut matrix = SMatrix::zeros();
         for (a, (i, j)) in all().enumerate() {
             for (b, (k, l)) in all().enumerate() {
-                matrix[(a, b)] = self.of[j + l][i + k];
+                matrix[(a, b)] = self.of[j + l][i + k].iter().sum();
             }
         }
-        matrix
+        let heights = self.height.map(|lanes| lanes.iter().sum());
+        (matrix, SVector::from(heights))
+    }
+}
+
+fn product(a: &Lanes, b: &Lanes) -> Lanes {
+    std::array::from_fn(|k| a[k] * b[k])
+}
+
+fn add(sum: &mut Lanes, term: &Lanes) {
+    for (sum, term) in sum.iter_mut().zip(term) {
+        *sum += term;
     }
 }
 
@@ -81,7 +124,7 @@ mod tests {
         let mut moments = Moments::new();
         let mut direct = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::zeros();
         let mut heights = [0.0; UNKNOWNS];
-        for k in 0..40 {
+        for k in 0..41 {
             let t = f64::from(k);
             let (x, y, h, w) = (
                 (1.3 * t).sin(),
@@ -100,12 +143,8 @@ mod tests {
                 }
             }
         }
-        assert!((moments.matrix() - direct).norm() < 1e-10);
-        let off = moments
-            .height
-            .iter()
-            .zip(heights)
-            .map(|(a, b)| (a - b).abs());
-        assert!(off.fold(0.0, f64::max) < 1e-11);
+        let (matrix, height) = moments.equations();
+        assert!((matrix - direct).norm() < 1e-10);
+        assert!((height - SVector::from(heights)).norm() < 1e-11);
     }
 }

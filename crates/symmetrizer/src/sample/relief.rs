@@ -9,6 +9,7 @@
 //! weight.
 
 use std::f64::consts::TAU;
+use std::sync::LazyLock;
 
 use nalgebra::{Complex, SMatrix, SVector};
 
@@ -166,8 +167,9 @@ impl Harmonics {
             return None;
         }
         let functions = self.0.transpose();
-        let mut a = functions * moments.matrix() * self.0;
-        let b = functions * SVector::from(moments.height);
+        let (products, heights) = moments.equations();
+        let mut a = functions * products * self.0;
+        let b = functions * heights;
         for k in 0..UNKNOWNS {
             a[(k, k)] += RIDGE * area;
         }
@@ -282,6 +284,16 @@ impl Sizes {
     }
 }
 
+/// Turns at which agreement is looked at before it is polished.
+const STEPS: usize = 24;
+/// For each of them e^(-i m alpha), m = 0 to the highest order.
+static TURNS: LazyLock<[[Complex<f64>; ORDERS + 1]; STEPS]> = LazyLock::new(|| {
+    std::array::from_fn(|k| {
+        let alpha = TAU / STEPS as f64 * k as f64;
+        std::array::from_fn(|m| Complex::from_polar(1.0, -(m as f64) * alpha))
+    })
+});
+
 /// The agreement of two reliefs as a function of the turn: Re sum g_m e^(-i m alpha).
 struct Correlation {
     g: [Complex<f64>; ORDERS + 1],
@@ -325,20 +337,23 @@ impl Correlation {
     }
 
     fn optima(&self, tolerance: f64) -> Vec<Alignment> {
-        const STEPS: usize = 24;
-        let step = TAU / STEPS as f64;
-        let gaps: [f64; STEPS] = std::array::from_fn(|k| self.gap(step * k as f64));
+        let agreement = TURNS.each_ref().map(|powers| {
+            let terms = self.g.iter().zip(powers);
+            terms.map(|(g, z)| g.re * z.re - g.im * z.im).sum::<f64>()
+        });
+        // Where the gap is half as much again.
+        let least = 0.5 * self.energy * (1.0 - 0.5 * (1.5 * tolerance).powi(2));
         (0..STEPS)
             .filter_map(|k| {
                 let (before, here, after) = (
-                    gaps[(k + STEPS - 1) % STEPS],
-                    gaps[k],
-                    gaps[(k + 1) % STEPS],
+                    agreement[(k + STEPS - 1) % STEPS],
+                    agreement[k],
+                    agreement[(k + 1) % STEPS],
                 );
-                if here > before || here >= after || here > 1.5 * tolerance {
+                if here < before || here <= after || here < least {
                     return None;
                 }
-                let turn = self.polish(step * k as f64);
+                let turn = self.polish(TAU / STEPS as f64 * k as f64);
                 let gap = self.gap(turn);
                 (gap <= tolerance && self.directedness(turn) > gap)
                     .then_some(Alignment { turn, gap })

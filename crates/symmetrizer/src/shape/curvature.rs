@@ -143,6 +143,7 @@ impl Cloud {
     pub fn fit(&self, center: &Point, normal: &Vector, radius: f64) -> Option<Curvature> {
         let t1 = any_orthogonal(normal);
         let t2 = normal.cross(&t1);
+        // The lower half, which is all that is looked at.
         let mut a = SMatrix::<f64, 6, 6>::zeros();
         let mut b = SVector::<f64, 6>::zeros();
         let mut area = 0.0;
@@ -153,7 +154,11 @@ impl Cloud {
             // A weight that fades to the rim makes the fit a smooth function of its place.
             let w = share * (1.0 - v.norm_squared()).max(0.0);
             let row = SVector::<f64, 6>::from([x * x, x * y, y * y, x, y, 1.0]);
-            a += w * row * row.transpose();
+            for j in 0..6 {
+                for i in j..6 {
+                    a[(i, j)] += w * row[i] * row[j];
+                }
+            }
             b += w * h * row;
             area += share;
             used += 1;
