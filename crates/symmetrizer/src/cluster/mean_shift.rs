@@ -63,7 +63,10 @@ const SOME: usize = 3;
 impl Votes {
     /// Embeds the pairs' transformations in `space`.
     pub fn new(pairs: &[Pair], space: &TransformSpace) -> Self {
-        let phi: Vec<Phi> = pairs.iter().map(|v| space.embed(&v.q_from_p)).collect();
+        let phi: Vec<Phi> = pairs
+            .par_iter()
+            .map(|v| space.embed(&v.q_from_p))
+            .collect();
         let weights = pairs.iter().map(|v| v.weight).collect();
         let axes: SMatrix<f64, LEADING, 12> = leading_axes(&phi);
         let short: Vec<[f64; LEADING]> = phi.iter().map(|x| (axes * x).into()).collect();
@@ -72,6 +75,14 @@ impl Votes {
             phi,
             weights,
             axes,
+        }
+    }
+
+    /// The same votes, those of `pairs`, with their first weights.
+    pub fn anew(&self, pairs: &[Pair]) -> Self {
+        Self {
+            weights: pairs.iter().map(|v| v.weight).collect(),
+            ..self.clone()
         }
     }
 
@@ -166,32 +177,34 @@ impl Votes {
             }
         }
         let net: Vec<usize> = cells.into_values().collect();
+        let crowds: Vec<Option<Crowd>> = net.par_iter().map(|&i| self.crowd(i, h)).collect();
         let mut density = vec![f64::NEG_INFINITY; self.phi.len()];
-        let at: Vec<Option<f64>> = net.par_iter().map(|&i| self.crowded(i, h)).collect();
-        for (&i, d) in net.iter().zip(at) {
-            density[i] = d.unwrap_or(f64::NEG_INFINITY);
+        for (&i, crowd) in net.iter().zip(&crowds) {
+            density[i] = crowd.as_ref().map_or(f64::NEG_INFINITY, |c| c.density);
         }
-        let highest = |&i: &usize| {
-            if density[i] == f64::NEG_INFINITY {
-                return false;
-            }
-            let mut near = self.within(&self.phi[i], 0.5 * h);
-            !near.any(|(k, _)| density[k].total_cmp(&density[i]).then(i.cmp(&k)).is_gt())
+        let higher = |k: usize, i: usize| density[k].total_cmp(&density[i]).then(i.cmp(&k)).is_gt();
+        let highest = |(i, crowd): (usize, Option<Crowd>)| {
+            let next = crowd?.next;
+            (!next.into_iter().any(|k| higher(k as usize, i))).then_some(i)
         };
-        let mut starts: Vec<usize> = net.into_par_iter().filter(highest).collect();
+        let mut starts: Vec<usize> = net.into_iter().zip(crowds).filter_map(highest).collect();
         starts.sort_by(|&a, &b| density[b].total_cmp(&density[a]).then(a.cmp(&b)));
         starts.truncate(STARTS);
         starts
     }
 
-    /// The density at a vote with some others within h; `None` at one that has hardly any.
-    fn crowded(&self, vote: usize, h: f64) -> Option<f64> {
-        let (mut count, mut density) = (0, 0.0);
+    /// The votes around one of them; `None` where there are hardly any.
+    fn crowd(&self, vote: usize, h: f64) -> Option<Crowd> {
+        let mut crowd = Crowd::default();
+        let mut count = 0;
         for (i, d2) in self.within(&self.phi[vote], h) {
             count += 1;
-            density += self.weights[i] * (1.0 - d2 / (h * h));
+            crowd.density += self.weights[i] * (1.0 - d2 / (h * h));
+            if d2 < 0.25 * h * h {
+                crowd.next.push(i as u32);
+            }
         }
-        (count >= SOME).then_some(density)
+        (count >= SOME).then_some(crowd)
     }
 
     /// Votes within `h` of `x` that count, with their squared distances, in the order of the index.
@@ -204,6 +217,15 @@ impl Votes {
             .map(move |i| (i, (self.phi[i] - x).norm_squared()))
             .filter(move |&(_, d2)| d2 < h * h)
     }
+}
+
+/// What is around a vote.
+#[derive(Default)]
+struct Crowd {
+    /// The kernel density there.
+    density: f64,
+    /// The votes within half the kernel's radius.
+    next: Vec<u32>,
 }
 
 /// The highest of `modes`, the highest first, and of those closer than `h` to it none.

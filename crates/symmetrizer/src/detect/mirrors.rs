@@ -48,7 +48,7 @@ pub fn mirrors(
             kernel: surroundings.params.cluster.clone(),
             highest: found.highest(),
         };
-        let clusters = rest.votes.clusters(&guided.kernel);
+        let clusters = rest.clusters(&guided.kernel);
         guided.take(surroundings, clusters, &mut rest, &mut found, ctx)?;
     }
     let explained = std::mem::replace(&mut cloud.votes, all);
@@ -63,7 +63,7 @@ pub fn mirrors(
     for t in &known {
         explain_near(cloud, surroundings, t);
     }
-    let clusters = cloud.votes.clusters(&fine.kernel);
+    let clusters = cloud.clusters(&fine.kernel);
     fine.take(surroundings, clusters, cloud, &mut found, ctx)?;
     cloud.votes = explained;
     consistent(surroundings, &mut found);

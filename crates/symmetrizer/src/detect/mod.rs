@@ -4,6 +4,7 @@
 mod again;
 mod apart;
 mod arrange;
+mod cloud;
 mod complete;
 pub mod groups;
 mod in_plane;
@@ -14,17 +15,18 @@ mod surroundings;
 mod turns;
 pub mod wanted;
 
+pub use cloud::Cloud;
 pub use groups::Group;
 pub use wanted::{Want, Wanted};
 
 use surroundings::Surroundings;
 
-use crate::cluster::{ClusterParams, Votes};
+use crate::cluster::ClusterParams;
 use crate::context::Context;
 use crate::error::Result;
 use crate::geom::Ambient;
-use crate::pair::{Likes, Pair, PairParams, mirror_pairs};
-use crate::patch::{Candidate, Ground, PatchParams, Refusal, Settled, Symmetry, settled};
+use crate::pair::{Likes, PairParams, mirror_pairs};
+use crate::patch::{Ground, PatchParams, Refusal, Symmetry};
 use crate::sample::outline::sample_outline;
 use crate::sample::samples::Describer;
 use crate::sample::{Probe, SampleParams, Samples, probes, probes_of_outline, sample};
@@ -32,7 +34,7 @@ use crate::shape::fairing::faired;
 use crate::shape::wall::Wall;
 use crate::shape::{ClosestPoint, Surface};
 use crate::slip::{Continuous, SlipParams, continuous};
-use crate::transform::{Class, Isometry, TransformSpace};
+use crate::transform::{Class, TransformSpace};
 
 /// Parameters of detection, a section for each stage.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -82,68 +84,6 @@ impl DetectParams {
     pub fn whole_mirrors(mut self) -> Self {
         self.patch.end = f64::MAX;
         self
-    }
-}
-
-/// The votes of one class.
-pub struct Cloud {
-    /// The class.
-    pub class: Class,
-    /// The votes' pairs.
-    pub pairs: Vec<Pair>,
-    /// The votes, those explained by a symmetry with weight 0.
-    pub votes: Votes,
-    /// How its modes came to rest, as far as they were grown one after the other.
-    pub rested: Vec<Rested>,
-}
-
-/// A mode that has come to rest on the surface, or not.
-#[derive(Debug, Clone)]
-pub struct Rested {
-    /// Where it started from.
-    start: Isometry,
-    seeds: Vec<u32>,
-    /// Where it came to rest, or why it did not.
-    rest: std::result::Result<Settled, String>,
-}
-
-impl Cloud {
-    /// Of `pairs`, none of them explained.
-    fn new(class: Class, pairs: Vec<Pair>, space: &TransformSpace) -> Self {
-        Self {
-            class,
-            votes: Votes::new(&pairs, space),
-            pairs,
-            rested: Vec::new(),
-        }
-    }
-
-    /// The same with nothing explained.
-    fn anew(&self, space: &TransformSpace) -> Self {
-        Self {
-            rested: self.rested.clone(),
-            ..Self::new(self.class, self.pairs.clone(), space)
-        }
-    }
-
-    /// Where a `candidate` among its modes comes to rest on `ground`: that is worked out once.
-    fn rest(
-        &mut self,
-        ground: &Ground<'_>,
-        candidate: &Candidate,
-        params: &PatchParams,
-    ) -> std::result::Result<Settled, String> {
-        let mut known = self.rested.iter();
-        if let Some(known) = known.find(|k| k.start == candidate.t && k.seeds == candidate.seeds) {
-            return known.rest.clone();
-        }
-        let rest = settled(ground, candidate, params);
-        self.rested.push(Rested {
-            start: candidate.t,
-            seeds: candidate.seeds.clone(),
-            rest: rest.clone(),
-        });
-        rest
     }
 }
 
@@ -342,13 +282,13 @@ fn looked(
         let known = known.iter().find(|c| c.class == Class::Mirror);
         let mut cloud = ctx.stage("pair", |ctx| {
             let pairs = match (class, known) {
-                (Class::Mirror, Some(known)) => return Ok(known.anew(space)),
+                (Class::Mirror, Some(known)) => return Ok(known.anew()),
                 (Class::Mirror, None) => mirror_pairs(samples, None, &params.pair, ctx)?,
                 _ => likes.pairs(class, space, &params.pair, ctx)?,
             };
             Ok(Cloud::new(class, pairs, space))
         })?;
-        let clusters = ctx.stage("cluster", |_| Ok(cloud.votes.clusters(&params.cluster)))?;
+        let clusters = ctx.stage("cluster", |_| Ok(cloud.clusters(&params.cluster)))?;
         let found = ctx.stage("patch", |ctx| {
             search::search(surroundings, clusters, &mut cloud, &looked.symmetries, ctx)
         })?;

@@ -88,7 +88,7 @@ impl Pass {
                     }
                     self.highest = self.highest.max(symmetry.height);
                     // From all starts again: a mode that stood in the shadow of this one shows now.
-                    clusters = cloud.votes.clusters(&self.kernel);
+                    clusters = cloud.clusters(&self.kernel);
                     if !again {
                         found.symmetries.push(symmetry);
                     }

@@ -9,7 +9,7 @@ use crate::detect::Cloud;
 use crate::detect::mirrors::mirrors;
 use crate::detect::surroundings::{SHUFFLES, Surroundings, as_good, is_same};
 use crate::error::Result;
-use crate::pair::shuffled_motions;
+use crate::pair::{Pair, shuffled_motions};
 use crate::patch::{Candidate, Refusal, Symmetry, grow_patch};
 use crate::transform::space::Phi;
 use crate::transform::{Class, Isometry};
@@ -159,12 +159,11 @@ impl Chance {
             params,
             ..
         } = surroundings;
-        let mut shuffle = |_| {
-            let pairs = shuffled_motions(&cloud.pairs, cloud.class, ground.samples, rng);
-            Votes::new(&pairs, space)
-        };
+        let shuffle = |_| shuffled_motions(&cloud.pairs, cloud.class, ground.samples, rng);
+        let shuffled: Vec<Vec<Pair>> = (0..SHUFFLES).map(shuffle).collect();
+        let votes = shuffled.par_iter().map(|pairs| Votes::new(pairs, space));
         Self {
-            shuffled: (0..SHUFFLES).map(&mut shuffle).collect(),
+            shuffled: votes.collect(),
             h: params.cluster.bandwidth,
             most: params.patch.max_chance,
         }

@@ -25,11 +25,16 @@ pub fn mirror_pairs(
     let list = &samples.list;
     let chosen = |i: &usize| among.is_none_or(|a| a[*i]);
     let chosen: Vec<usize> = (0..list.len()).filter(chosen).collect();
-    let rarity = distinctiveness(list, &chosen, params.tolerance);
+    let likes: Vec<Vec<(f64, usize)>> = list
+        .par_iter()
+        .map(|s| alike(list, &chosen, s, params.tolerance))
+        .collect();
     ctx.progress(0.5)?;
+    // The one weight that matters: without it the bunny's head is lost among its back's votes.
+    let rarity = |i: usize| 1.0 / likes[i].len().max(1) as f64;
     let per_sample: Vec<Vec<Pair>> = chosen
         .par_iter()
-        .map(|&p| partners(list, &chosen, p, params, &rarity))
+        .map(|&p| partners(list, &likes[p], p, params, &rarity))
         .collect();
     let mut pairs: Vec<Pair> = per_sample.into_iter().flatten().collect();
     // A pair chosen from both of its ends is one vote.
@@ -39,44 +44,28 @@ pub fn mirror_pairs(
     Ok(pairs)
 }
 
-/// 1 / the number of samples with a like signature: the one weight that matters (without
-/// it the bunny's head is lost among its back's votes).
-fn distinctiveness(list: &[Sample], chosen: &[usize], tolerance: f64) -> Vec<f64> {
-    list.par_iter()
-        .map(|s| {
-            let alike = chosen
-                .iter()
-                .map(|&t| &list[t])
-                .filter(|t| {
-                    let d = s.signature.distance(&t.signature);
-                    d.is_some_and(|d| d < tolerance)
-                })
-                .count();
-            1.0 / alike.max(1) as f64
-        })
-        .collect()
+/// The `chosen` samples with signatures like that of `s`, and how far these are from it.
+fn alike(list: &[Sample], chosen: &[usize], s: &Sample, tolerance: f64) -> Vec<(f64, usize)> {
+    let gap = |&q: &usize| Some((s.signature.distance(&list[q].signature)?, q));
+    let all = chosen.iter().filter_map(gap);
+    all.filter(|(gap, _)| *gap < tolerance).collect()
 }
 
-/// The best partners of sample `p`, as pairs with the smaller index first.
+/// The best partners of sample `p` among those that look alike, as pairs with the smaller index first, weighted by
+/// `rarity`.
 fn partners(
     list: &[Sample],
-    chosen: &[usize],
+    likes: &[(f64, usize)],
     p: usize,
     params: &PairParams,
-    rarity: &[f64],
+    rarity: impl Fn(usize) -> f64,
 ) -> Vec<Pair> {
     if list[p].signature.strength() < params.min_strength {
         return Vec::new();
     }
-    let mut found: Vec<(f64, usize, Plane)> = chosen
-        .iter()
-        .copied()
-        .filter(|&q| q != p)
-        .filter_map(|q| {
-            let gap = list[p].signature.distance(&list[q].signature)?;
-            (gap < params.tolerance).then_some((gap, q))
-        })
-        .filter_map(|(gap, q)| Some((gap, q, mirror_of(&list[p], &list[q], params)?)))
+    let others = likes.iter().filter(|(_, q)| *q != p);
+    let mut found: Vec<(f64, usize, Plane)> = others
+        .filter_map(|&(gap, q)| Some((gap, q, mirror_of(&list[p], &list[q], params)?)))
         .collect();
     found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     found.truncate(params.partners);
@@ -86,7 +75,7 @@ fn partners(
             p: p.min(q) as u32,
             q: p.max(q) as u32,
             q_from_p: Isometry::mirror(&plane),
-            weight: (rarity[p] * rarity[q]).sqrt(),
+            weight: (rarity(p) * rarity(q)).sqrt(),
         })
         .collect()
 }

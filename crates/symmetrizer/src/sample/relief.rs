@@ -364,12 +364,15 @@ impl Correlation {
     /// Newton on the derivative of the agreement, from a grid point beside its maximum.
     fn polish(&self, mut alpha: f64) -> f64 {
         for _ in 0..4 {
+            let turn = Complex::from_polar(1.0, -alpha);
+            let mut power = Complex::new(1.0, 0.0);
             let (mut first, mut second) = (0.0, 0.0);
             for (m, g) in self.g.iter().enumerate() {
                 let m = m as f64;
-                let z = g * Complex::from_polar(1.0, -m * alpha);
+                let z = g * power;
                 first += m * z.im;
                 second -= m * m * z.re;
+                power *= turn;
             }
             if second >= 0.0 {
                 break;
