@@ -86,6 +86,15 @@ impl<'a> Context<'a> {
         Pcg64::seed_from_u64(self.seed ^ hash)
     }
 
+    /// Runs `work` with other streams of random numbers, the same for the same `turn`; turn 0 has those of the job.
+    pub fn drawn_anew<T>(&mut self, turn: u64, work: impl FnOnce(&mut Self) -> T) -> T {
+        let other = self.seed ^ turn.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let seed = std::mem::replace(&mut self.seed, other);
+        let result = work(self);
+        self.seed = seed;
+        result
+    }
+
     /// Runs `work` as the stage `name`, with its begin and end events.
     pub fn stage<T>(&mut self, name: &str, work: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
         self.check()?;

@@ -10,6 +10,7 @@ use crate::job::{Detected, plane};
 use crate::optimize::schedule::{Settings, prepared};
 use crate::optimize::{Optimized, Step, complete, mend};
 use crate::report::{BendReport, KeptReport};
+use crate::sample::Samples;
 use crate::shape::ClosestPoint;
 use crate::straighten::{Bend, StraightenParams, Straightened, When, bend_again, straighten};
 
@@ -17,12 +18,14 @@ use crate::straighten::{Bend, StraightenParams, Straightened, When, bend_again, 
 pub(super) const REACH: f64 = 0.12;
 
 /// Share of the samples that a part is to hold which is straightened though the whole is uncertain.
-const MOST: f64 = 0.5;
+const MOST: f64 = 0.35;
 
 /// A bend that was found, for pictures of it.
 pub struct Bent {
     /// The bend.
     pub bend: Bend,
+    /// The samples that it is a bend of.
+    pub samples: Samples,
     /// The shape without it, not yet symmetric; none where the bend was left.
     pub straight: Option<Straightened>,
 }
@@ -89,7 +92,11 @@ pub(super) fn unbend(
     });
     Ok(Looked {
         report: Some(report),
-        bent: Some(Bent { bend, straight }),
+        bent: Some(Bent {
+            bend,
+            samples: samples.clone(),
+            straight,
+        }),
         done,
     })
 }

@@ -4,7 +4,7 @@ use crate::context::Context;
 use crate::detect::DetectParams;
 use crate::error::Result;
 use crate::job::bent::{Bent, unbend_part};
-use crate::job::further::further;
+use crate::job::further::{further, unbend_otherwise};
 use crate::job::{Detected, Symmetrized};
 use crate::optimize::schedule::Settings;
 use crate::optimize::{Optimized, Outcome, Step, mend, optimize};
@@ -69,7 +69,13 @@ impl Again<'_> {
     ) -> Result<(Optimized, bool)> {
         let (before, settings) = (self.before, self.settings);
         let straighten = &self.params.straighten;
-        let unbent = unbend_part(before, self.asymmetry, looked, straighten, settings, ctx)?;
+        let (report, bent) = looked;
+        let state = (before, self.asymmetry);
+        let known = (&mut *report, &mut *bent);
+        let unbent = match unbend_part(before, self.asymmetry, known, straighten, settings, ctx)? {
+            Some(done) => Some(done),
+            None => unbend_otherwise(state, (report, bent), straighten, settings, ctx)?,
+        };
         if let Some(done) = unbent {
             let done = mended(before, done, ctx)?;
             return further(before, done, straighten, settings, ctx);

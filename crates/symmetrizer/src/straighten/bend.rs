@@ -102,6 +102,8 @@ impl Bend {
 
 /// Share of the samples without a partner that fits above which a field is grown once more.
 const LOOSE: f64 = 0.03;
+/// Times at the most.
+const ROUNDS: usize = 3;
 
 /// A field of which much is doubtful grown once more, from what is trusted of it, where the settled mirrors say: pairs that slid while
 /// it grew are found anew. Whichever is to be trusted more.
@@ -111,22 +113,21 @@ fn regrown(
     trust: Trust,
     ctx: &mut Context<'_>,
 ) -> Result<(SymmetryField, Trust)> {
-    let loose = match trust.verdict() {
-        Verdict::Accept => trust.unfit > LOOSE,
-        Verdict::Uncertain => true,
-        Verdict::Refuse => false,
-    };
-    if !loose || land.wall.is_some() {
-        return Ok((first, trust));
+    let (mut field, mut trust) = (first, trust);
+    for _ in 0..ROUNDS {
+        let loose = trust.verdict() != Verdict::Accept || trust.unfit > LOOSE;
+        if !loose || land.wall.is_some() {
+            break;
+        }
+        let seeds = field.of(&trust.trusted).partners;
+        let again = settle(land, &grow(land, seeds, ctx.token()), ctx)?;
+        let sure = Trust::of(land, &again);
+        if sure.score() <= trust.score() {
+            break;
+        }
+        (field, trust) = (again, sure);
     }
-    let seeds = first.of(&trust.trusted).partners;
-    let again = settle(land, &grow(land, seeds, ctx.token()), ctx)?;
-    let sure = Trust::of(land, &again);
-    if sure.score() > trust.score() {
-        Ok((again, sure))
-    } else {
-        Ok((first, trust))
-    }
+    Ok((field, trust))
 }
 
 /// Which of the samples are trusted among others that are, and so their partners.

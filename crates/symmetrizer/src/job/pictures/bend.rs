@@ -99,7 +99,7 @@ impl<'a> Shown<'a> {
             return Ok(None);
         };
         let input = &job.before.working.surface;
-        let samples = &job.before.detection.samples;
+        let samples = &bent.samples;
         let straight = match &bent.straight {
             Some(straight) => Cow::Borrowed(straight),
             None => {
