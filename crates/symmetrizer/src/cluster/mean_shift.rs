@@ -63,10 +63,7 @@ const SOME: usize = 3;
 impl Votes {
     /// Embeds the pairs' transformations in `space`.
     pub fn new(pairs: &[Pair], space: &TransformSpace) -> Self {
-        let phi: Vec<Phi> = pairs
-            .par_iter()
-            .map(|v| space.embed(&v.q_from_p))
-            .collect();
+        let phi: Vec<Phi> = pairs.par_iter().map(|v| space.embed(&v.q_from_p)).collect();
         let weights = pairs.iter().map(|v| v.weight).collect();
         let axes: SMatrix<f64, LEADING, 12> = leading_axes(&phi);
         let short: Vec<[f64; LEADING]> = phi.iter().map(|x| (axes * x).into()).collect();

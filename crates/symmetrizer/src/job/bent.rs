@@ -184,7 +184,8 @@ fn undone(
     let now = surface.with_positions(straight.positions.clone());
     // What is not sure of the whole is done to the part that it is sure of.
     let part = bend.trust.verdict() == Verdict::Uncertain && land.wall.is_none();
-    let region = part.then(|| bend.region(land));
+    let trusted = part.then(|| bend.region(land));
+    let region = both(trusted, settings.region);
     let within = Settings {
         region: region.as_deref(),
         ..settings
@@ -221,6 +222,14 @@ fn undone(
         done,
         kept,
     }))
+}
+
+/// How far each vertex may be changed where two say it.
+fn both(one: Option<Vec<f64>>, other: Option<&[f64]>) -> Option<Vec<f64>> {
+    match (one, other) {
+        (Some(one), Some(other)) => Some(one.iter().zip(other).map(|(a, b)| a * b).collect()),
+        (one, other) => one.or_else(|| other.map(<[f64]>::to_vec)),
+    }
 }
 
 fn wanted(verdict: Verdict, when: When) -> bool {

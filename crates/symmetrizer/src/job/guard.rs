@@ -46,9 +46,15 @@ pub(super) fn mended(
 
 /// Whether so much of what was `done` to `before` had to be mended, or could not be, that the whole is not to be had.
 pub(super) fn spoiled(before: &Detected, done: &Optimized) -> bool {
+    let mended = |step: &Step| matches!(step, Step::Mend { share, .. } if *share > SPOILED);
+    tangled(before, done) || done.steps.iter().any(mended)
+}
+
+/// Whether more of what was `done` to `before` is tangled than may be, though it was mended.
+pub(super) fn tangled(before: &Detected, done: &Optimized) -> bool {
     let most = (TANGLED * before.working.surface.triangles.len() as f64) as usize;
-    let mended = |step: &Step| matches!(step, Step::Mend { share, left } if *share > SPOILED || *left > most);
-    done.steps.iter().any(mended)
+    let left = |step: &Step| matches!(step, Step::Mend { left, .. } if *left > most);
+    done.steps.iter().any(left)
 }
 
 /// A state, its mean asymmetry (fraction of L) and how to work on it.
@@ -78,7 +84,7 @@ impl Again<'_> {
         };
         if let Some(done) = unbent {
             let done = mended(before, done, ctx)?;
-            return further(before, done, straighten, settings, ctx);
+            return further(state, done, straighten, settings, ctx);
         }
         let settings = Settings {
             part: true,

@@ -109,11 +109,7 @@ struct Mending {
 
 impl Mending {
     fn new(before: &Surface) -> Self {
-        let mut neighbors = vec![Vec::new(); before.positions.len()];
-        for [u, v] in before.edges() {
-            neighbors[u as usize].push(v);
-            neighbors[v as usize].push(u);
-        }
+        let neighbors = before.next_to_vertices();
         Self {
             tangles: Tangles::of(before, &neighbors),
             reach: vec![0.0; before.positions.len()],

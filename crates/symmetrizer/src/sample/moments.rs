@@ -78,12 +78,7 @@ impl Moments {
     }
 
     /// The matrix of the sums of products of monomials, and the sums of the height times each.
-    pub fn equations(
-        mut self,
-    ) -> (
-        SMatrix<f64, UNKNOWNS, UNKNOWNS>,
-        SVector<f64, UNKNOWNS>,
-    ) {
+    pub fn equations(mut self) -> (SMatrix<f64, UNKNOWNS, UNKNOWNS>, SVector<f64, UNKNOWNS>) {
         self.sum_up();
         let all = || (0..=ORDERS).flat_map(|n| (0..=n).map(move |j| (n - j, j)));
         let mut matrix = SMatrix::zeros();

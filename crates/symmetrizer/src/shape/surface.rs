@@ -130,6 +130,16 @@ impl Surface {
         sides
     }
 
+    /// For each vertex those next to it.
+    pub fn next_to_vertices(&self) -> Vec<Vec<u32>> {
+        let mut next = vec![Vec::new(); self.positions.len()];
+        for [u, v] in self.edges() {
+            next[u as usize].push(v);
+            next[v as usize].push(u);
+        }
+        next
+    }
+
     /// Every edge once, as vertices in increasing order, sorted.
     pub fn edges(&self) -> Vec<[u32; 2]> {
         let mut edges = self.sides();
