@@ -137,3 +137,21 @@ impl<'a> Context<'a> {
         &self.warnings
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::RngExt;
+
+    /// Each turn has streams of its own, turn 0 those of the job, and afterwards all is as before.
+    #[test]
+    fn numbers_are_drawn_anew_for_a_while() {
+        let mut ctx = Context::new(7);
+        let mut draw = |turn| ctx.drawn_anew(turn, |ctx| ctx.rng("sample").random::<u64>());
+        let drawn = [draw(0), draw(1), draw(2), draw(1)];
+        assert_eq!(drawn[1], drawn[3]);
+        assert!(drawn[0] != drawn[1] && drawn[1] != drawn[2]);
+        assert_eq!(drawn[0], ctx.rng("sample").random::<u64>());
+        assert_eq!(ctx.seed(), 7);
+    }
+}

@@ -96,3 +96,45 @@ impl Cloud {
         rest
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::{Point, Vector};
+    use crate::transform::Plane;
+
+    /// Modes that are known are those that would be found, also once votes are explained and once they all count again.
+    #[test]
+    fn known_modes_are_the_modes() {
+        let corners =
+            (0..8).map(|k| Point::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)));
+        let space = TransformSpace::new(corners.map(|x| (x, 1.0)));
+        let pairs: Vec<Pair> = (0..40)
+            .map(|k| {
+                let normal = if k < 25 { Vector::x() } else { Vector::y() };
+                let place = Point::new(0.5, 0.5, 0.5) + normal * (0.001 * f64::from(k));
+                Pair {
+                    p: k,
+                    q: k + 40,
+                    q_from_p: Isometry::mirror(&Plane::through(&place, normal)),
+                    weight: 1.0,
+                }
+            })
+            .collect();
+        let kernel = ClusterParams::default();
+        let mut cloud = Cloud::new(Class::Mirror, pairs, &space);
+        let heights = |cloud: &mut Cloud| {
+            let known = cloud.clusters(&kernel);
+            let found = cloud.votes.clusters(&kernel);
+            let heights = |all: &[Cluster]| all.iter().map(|c| c.height).collect::<Vec<_>>();
+            assert_eq!(heights(&known), heights(&found));
+            heights(&known)
+        };
+        let all = heights(&mut cloud);
+        cloud.votes.explain_away(|i| i < 25);
+        let some = heights(&mut cloud);
+        assert_eq!((all.len(), some.len()), (2, 1));
+        assert_eq!(heights(&mut cloud), some);
+        assert_eq!(heights(&mut cloud.anew()), all);
+    }
+}

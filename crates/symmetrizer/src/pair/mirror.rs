@@ -34,7 +34,7 @@ pub fn mirror_pairs(
     let rarity = |i: usize| 1.0 / likes[i].len().max(1) as f64;
     let per_sample: Vec<Vec<Pair>> = chosen
         .par_iter()
-        .map(|&p| partners(list, &likes[p], p, params, &rarity))
+        .map(|&p| partners(list, &likes[p], p, params, rarity))
         .collect();
     let mut pairs: Vec<Pair> = per_sample.into_iter().flatten().collect();
     // A pair chosen from both of its ends is one vote.

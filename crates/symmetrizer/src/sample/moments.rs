@@ -60,15 +60,15 @@ impl Moments {
         for k in 1..POWERS {
             powers[k] = product(&powers[k - 1], &x);
         }
-        for j in 0..POWERS {
-            for i in 0..POWERS - j {
-                add(&mut self.of[j][i], &product(&w, &powers[i]));
+        for (j, row) in self.of.iter_mut().enumerate() {
+            for (sum, power) in row.iter_mut().zip(&powers[..POWERS - j]) {
+                add(sum, &product(&w, power));
             }
             if j <= ORDERS {
                 let wh = product(&w, &h);
-                for i in 0..=ORDERS - j {
+                for (i, power) in powers[..=ORDERS - j].iter().enumerate() {
                     let sum = &mut self.height[monomial(i, j)];
-                    add(sum, &product(&wh, &powers[i]));
+                    add(sum, &product(&wh, power));
                 }
             }
             w = product(&w, &y);
