@@ -8,8 +8,11 @@ mod further;
 mod guard;
 pub mod kinds;
 mod measured;
+mod otherwise;
 pub mod pictures;
 pub mod plane;
+mod spared;
+mod state;
 
 use crate::apply::measure::{
     Asymmetry, AsymmetryReport, Distortion, asymmetry, asymmetry_of_outline, distortion,

@@ -12,7 +12,6 @@ use crate::optimize::outcome::{mirrors, next_id};
 use crate::optimize::plan::goals;
 use crate::optimize::schedule::Settings;
 use crate::optimize::{Optimized, Outcome, optimize};
-use crate::patch::Symmetry;
 use crate::report::BendReport;
 use crate::straighten::StraightenParams;
 use crate::transform::Kind;
@@ -57,19 +56,20 @@ pub(super) fn plan(found: &Detected, settings: Settings<'_>) -> Plan {
     }
 }
 
-/// Whether the mirror that holds for most of a shape, as far as the tolerance, does not hold for its `details`.
+/// Whether none of the mirrors of a shape, as far as the tolerance, holds for one of its `details`: those that hold for parts of
+/// it may be merged into one.
 fn is_contradicted(detection: &Detection, details: &[Goal]) -> bool {
-    let larger = |a: &&Symmetry, b: &&Symmetry| a.area_fraction.total_cmp(&b.area_fraction);
-    let Some(main) = mirrors(detection).max_by(larger) else {
-        return false;
-    };
-    let mut residuals: Vec<f64> = main.pairs.iter().map(|p| p.residual).collect();
-    let near = (TYPICAL * median(&mut residuals).unwrap_or(0.0)).max(SMALL);
     let mut held = vec![false; detection.samples.list.len()];
-    for pair in main.pairs.iter().filter(|p| p.residual <= near) {
-        held[pair.sample as usize] = true;
+    let mut any = false;
+    for mirror in mirrors(detection) {
+        any = true;
+        let mut residuals: Vec<f64> = mirror.pairs.iter().map(|p| p.residual).collect();
+        let near = (TYPICAL * median(&mut residuals).unwrap_or(0.0)).max(SMALL);
+        for pair in mirror.pairs.iter().filter(|p| p.residual <= near) {
+            held[pair.sample as usize] = true;
+        }
     }
-    is_outside(details, &held)
+    any && is_outside(details, &held)
 }
 
 /// Whether most of any of the `details` lies where nothing is `held`.

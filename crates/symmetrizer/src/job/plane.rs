@@ -128,9 +128,13 @@ pub(super) fn give_up_on_worse(job: &mut Symmetrized, ctx: &mut Context<'_>) {
         return;
     }
     if worse || crossed > 0 {
+        let why = match crossed {
+            0 if result.asymmetry.mean > NEAR => "it would not come near enough to that",
+            0 => "it would be little more so",
+            _ => "it would cross itself",
+        };
         ctx.warn(format!(
-            "the drawing is left as it is: made symmetric, {} ({:.2} % of D from symmetric, was {before:.2})",
-            if crossed > 0 { "it would cross itself" } else { "it would be little more so" },
+            "the drawing is left as it is: made symmetric, {why} ({:.2} % of D from symmetric, was {before:.2})",
             result.asymmetry.mean
         ));
         let shape = corners(wall);
