@@ -12,6 +12,7 @@ use crate::optimize::outcome::{mirrors, next_id};
 use crate::optimize::plan::goals;
 use crate::optimize::schedule::Settings;
 use crate::optimize::{Optimized, Outcome, optimize};
+use crate::patch::Symmetry;
 use crate::report::BendReport;
 use crate::straighten::StraightenParams;
 use crate::transform::Kind;
@@ -32,6 +33,9 @@ pub(super) enum Plan {
 /// A mirror that is to be that of the whole holds for this share of each detail at the least; copies of an element that
 /// stand any way, say, contradict it.
 const DETAIL: f64 = 0.5;
+/// Details on less than this share of the surface, in fewer places than these, come by chance on bland ground, and say nothing.
+const TELLING: f64 = 0.1;
+const SEVERAL: usize = 4;
 /// It holds where residuals are no larger than this many times the median, or than this, fraction of L.
 const TYPICAL: f64 = 6.0;
 const SMALL: f64 = 0.003;
@@ -56,28 +60,29 @@ pub(super) fn plan(found: &Detected, settings: Settings<'_>) -> Plan {
     }
 }
 
-/// Whether none of the mirrors of a shape, as far as the tolerance, holds for one of its `details`: those that hold for parts of
-/// it may be merged into one.
+/// Whether the mirror that holds for most of a shape, as far as the tolerance, does not hold for its `details`.
 fn is_contradicted(detection: &Detection, details: &[Goal]) -> bool {
+    let larger = |a: &&Symmetry, b: &&Symmetry| a.area_fraction.total_cmp(&b.area_fraction);
+    let Some(main) = mirrors(detection).max_by(larger) else {
+        return false;
+    };
+    let mut residuals: Vec<f64> = main.pairs.iter().map(|p| p.residual).collect();
+    let near = (TYPICAL * median(&mut residuals).unwrap_or(0.0)).max(SMALL);
     let mut held = vec![false; detection.samples.list.len()];
-    let mut any = false;
-    for mirror in mirrors(detection) {
-        any = true;
-        let mut residuals: Vec<f64> = mirror.pairs.iter().map(|p| p.residual).collect();
-        let near = (TYPICAL * median(&mut residuals).unwrap_or(0.0)).max(SMALL);
-        for pair in mirror.pairs.iter().filter(|p| p.residual <= near) {
-            held[pair.sample as usize] = true;
-        }
+    for pair in main.pairs.iter().filter(|p| p.residual <= near) {
+        held[pair.sample as usize] = true;
     }
-    any && is_outside(details, &held)
+    is_outside(details, &held)
 }
 
-/// Whether most of any of the `details` lies where nothing is `held`.
+/// Whether most of any of the `details` that may say so lies where nothing is `held`.
 fn is_outside(details: &[Goal], held: &[bool]) -> bool {
     details.iter().any(|goal| {
         let samples = || goal.places.iter().flatten();
         let inside = samples().filter(|&&i| held[i as usize]).count();
-        (inside as f64) < DETAIL * samples().count() as f64
+        let all = samples().count() as f64;
+        let telling = all >= TELLING * held.len() as f64 || goal.places.len() >= SEVERAL;
+        telling && (inside as f64) < DETAIL * all
     })
 }
 
