@@ -2,6 +2,7 @@
 
 mod arranged;
 mod bent;
+mod detected;
 mod firm;
 mod follow;
 mod further;
@@ -14,13 +15,10 @@ pub mod plane;
 mod spared;
 mod state;
 
-use crate::apply::measure::{
-    Asymmetry, AsymmetryReport, Distortion, asymmetry, asymmetry_of_outline, distortion,
-    distortion_of_outline,
-};
+use crate::apply::measure::{AsymmetryReport, Distortion, distortion, distortion_of_outline};
 use crate::context::Context;
 use crate::deform::{Igarashi, Stiffness};
-use crate::detect::{DetectParams, Detection, Group, detect, detect_in_plane};
+use crate::detect::DetectParams;
 use crate::error::Result;
 use crate::job::arranged::Arranged;
 use crate::optimize::orbit::{Goal, orbits};
@@ -35,26 +33,15 @@ use crate::report::{Head, InputReport, Report, ResultReport, StiffnessReport, sy
 use crate::shape::wall::Wall;
 use crate::shape::working::{Mended, Working};
 use crate::shape::{Document, Mesh};
-use crate::transform::{Elements, Plane};
+use crate::transform::Plane;
 
 pub use bent::Bent;
+pub use detected::Detected;
 pub use measured::{Measured, measure_in};
 pub use plane::{
     Drawn, detect_drawing, measure_drawing, symmetrize_drawing, symmetrize_drawing_with,
     unbend_drawing,
 };
-
-/// A state of a shape and the symmetries found in it.
-pub struct Detected {
-    /// The shape to work on.
-    pub working: Working,
-    /// The wall that it is, in the plane.
-    pub wall: Option<Wall>,
-    /// The bounding-box diagonal D, fraction of L.
-    pub diagonal: f64,
-    /// What was found.
-    pub detection: Detection,
-}
 
 /// A shape made symmetric, and how.
 pub struct Symmetrized {
@@ -380,57 +367,6 @@ const EXACT: f64 = 2e-5;
 /// The same of coordinates with six digits, as text has them: rms distance, and that of single vertices, % of D.
 const ROUNDED: f64 = 1e-4;
 const STRAY: f64 = 5e-3;
-
-impl Detected {
-    fn find(
-        (working, wall): (Working, Option<Wall>),
-        diagonal: f64,
-        params: &DetectParams,
-        ctx: &mut Context<'_>,
-    ) -> Result<Self> {
-        let mut detection = match &wall {
-            Some(wall) => detect_in_plane(wall, params, ctx)?,
-            None => detect(&working.surface, params, ctx)?,
-        };
-        kinds::keep_wanted(&mut detection, &params.wanted);
-        Ok(Self {
-            diagonal: diagonal / working.normalization.scale,
-            detection,
-            working,
-            wall,
-        })
-    }
-
-    /// The symmetries, the highest first.
-    pub fn symmetries(&self) -> &[Symmetry] {
-        &self.detection.symmetries
-    }
-
-    /// The kind and the elements of one of its symmetries, working coordinates.
-    pub fn elements(&self, symmetry: &Symmetry) -> Elements {
-        kinds::elements(symmetry, &self.detection.samples)
-    }
-
-    /// The group that a symmetry belongs to, the first of several.
-    pub fn group_of(&self, id: u32) -> Option<&Group> {
-        let mut groups = self.detection.groups.iter();
-        groups.find(|g| g.symmetries.contains(&id))
-    }
-
-    /// How far this state is from symmetric; its symmetries' planes and `known` ones are tried
-    /// besides those that the measure looks for itself.
-    ///
-    /// # Errors
-    /// As [`asymmetry()`].
-    pub fn asymmetry(&self, known: &[Plane], ctx: &Context<'_>) -> Result<Asymmetry> {
-        let mut planes = known.to_vec();
-        planes.extend(mirrors(&self.detection).map(Symmetry::plane));
-        match &self.wall {
-            Some(wall) => asymmetry_of_outline(wall, self.diagonal, &planes, ctx),
-            None => asymmetry(&self.working.surface, self.diagonal, &planes, ctx),
-        }
-    }
-}
 
 impl Symmetrized {
     /// The `document` whose mesh went in, with everything it says, deformed as its mesh was.

@@ -1,7 +1,6 @@
 //! A shape on its way: its surface and mirrors as they are by now, and its bend undone from there.
 
 use crate::context::Context;
-use crate::detect::detect;
 use crate::error::Result;
 use crate::job::Detected;
 use crate::job::bent::{Looked, unbend, unbend_part};
@@ -46,16 +45,13 @@ pub(super) fn detected(
     settings: Settings<'_>,
     ctx: &mut Context<'_>,
 ) -> Result<Detected> {
-    let detection = ctx.stage("detect", |ctx| detect(&surface, settings.detect, ctx))?;
     let working = Working {
         surface,
         ..before.working.clone()
     };
-    Ok(Detected {
-        detection,
-        working,
-        wall: None,
-        diagonal: before.diagonal,
+    let diagonal = before.diagonal * working.normalization.scale;
+    ctx.stage("detect", |ctx| {
+        Detected::find((working, None), diagonal, settings.detect, ctx)
     })
 }
 

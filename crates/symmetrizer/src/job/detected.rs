@@ -1,0 +1,76 @@
+//! A state of a shape and the symmetries found in it.
+
+use crate::apply::measure::{Asymmetry, asymmetry, asymmetry_of_outline};
+use crate::context::Context;
+use crate::detect::{DetectParams, Detection, Group, detect, detect_in_plane};
+use crate::error::Result;
+use crate::job::kinds;
+use crate::optimize::outcome::mirrors;
+use crate::patch::Symmetry;
+use crate::shape::wall::Wall;
+use crate::shape::working::Working;
+use crate::transform::{Elements, Plane};
+
+/// A state of a shape and the symmetries found in it.
+pub struct Detected {
+    /// The shape to work on.
+    pub working: Working,
+    /// The wall that it is, in the plane.
+    pub wall: Option<Wall>,
+    /// The bounding-box diagonal D, fraction of L.
+    pub diagonal: f64,
+    /// What was found.
+    pub detection: Detection,
+}
+
+impl Detected {
+    /// The symmetries that are wanted of a shape of space or, with its wall, of the plane, with that `diagonal` in the file's units.
+    pub(super) fn find(
+        (working, wall): (Working, Option<Wall>),
+        diagonal: f64,
+        params: &DetectParams,
+        ctx: &mut Context<'_>,
+    ) -> Result<Self> {
+        let mut detection = match &wall {
+            Some(wall) => detect_in_plane(wall, params, ctx)?,
+            None => detect(&working.surface, params, ctx)?,
+        };
+        kinds::keep_wanted(&mut detection, &params.wanted);
+        Ok(Self {
+            diagonal: diagonal / working.normalization.scale,
+            detection,
+            working,
+            wall,
+        })
+    }
+
+    /// The symmetries, the highest first.
+    pub fn symmetries(&self) -> &[Symmetry] {
+        &self.detection.symmetries
+    }
+
+    /// The kind and the elements of one of its symmetries, working coordinates.
+    pub fn elements(&self, symmetry: &Symmetry) -> Elements {
+        kinds::elements(symmetry, &self.detection.samples)
+    }
+
+    /// The group that a symmetry belongs to, the first of several.
+    pub fn group_of(&self, id: u32) -> Option<&Group> {
+        let mut groups = self.detection.groups.iter();
+        groups.find(|g| g.symmetries.contains(&id))
+    }
+
+    /// How far this state is from symmetric; its symmetries' planes and `known` ones are tried
+    /// besides those that the measure looks for itself.
+    ///
+    /// # Errors
+    /// As [`asymmetry()`].
+    pub fn asymmetry(&self, known: &[Plane], ctx: &Context<'_>) -> Result<Asymmetry> {
+        let mut planes = known.to_vec();
+        planes.extend(mirrors(&self.detection).map(Symmetry::plane));
+        match &self.wall {
+            Some(wall) => asymmetry_of_outline(wall, self.diagonal, &planes, ctx),
+            None => asymmetry(&self.working.surface, self.diagonal, &planes, ctx),
+        }
+    }
+}
