@@ -25,6 +25,17 @@ impl CancelToken {
     pub fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
+
+    /// Fails with [`Error::Cancelled`] when asked to stop.
+    ///
+    /// # Errors
+    /// That one.
+    pub fn check(&self) -> Result<()> {
+        match self.is_cancelled() {
+            true => Err(Error::Cancelled),
+            false => Ok(()),
+        }
+    }
 }
 
 /// What a stage tells the caller.
@@ -116,10 +127,7 @@ impl<'a> Context<'a> {
 
     /// Fails with [`Error::Cancelled`] when asked to stop.
     pub fn check(&self) -> Result<()> {
-        if self.cancel.is_cancelled() {
-            return Err(Error::Cancelled);
-        }
-        Ok(())
+        self.cancel.check()
     }
 
     /// The token, for work that goes on in several threads.

@@ -8,7 +8,7 @@ use std::time::Instant;
 use serde::Deserialize;
 use symmetrizer::detect::detect;
 use symmetrizer::field::grow::Land;
-use symmetrizer::field::{Mirrors, Reach, SymmetryField, find};
+use symmetrizer::field::{Mirrors, Reach, SymmetryField, candidates};
 use symmetrizer::geom::{Matrix3, Point, Vector, nearest_orthogonal};
 use symmetrizer::sample::Samples;
 use symmetrizer::shape::working::Working;
@@ -131,7 +131,7 @@ fn look(mesh: &Mesh) -> Result<Looked> {
     let (field, straight) = match &bend {
         Some(bend) => (bend.settled.clone(), straighten(&land, bend)?.positions),
         None => (
-            find(&land, &mirrors, &ctx)?,
+            candidates(&land, &mirrors, &ctx)?.swap_remove(0),
             working.surface.positions.clone(),
         ),
     };

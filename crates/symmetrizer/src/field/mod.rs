@@ -56,12 +56,16 @@ const IN_ORDER: f64 = 1.1;
 /// Pairs around an outline of so much worth are not to be outdone.
 const ENOUGH: f64 = 0.7;
 
-/// The field that detection's `mirrors` grow into on `land`, with or without the doubtful ones: of several starts the one that
-/// is to be trusted most.
+/// The fields that detection's `mirrors` grow into on `land`, with or without the doubtful ones, from several starts: the one that
+/// seems to be trusted most first, none twice.
 ///
 /// # Errors
 /// [`crate::Error::Cancelled`].
-pub fn find(land: &grow::Land<'_>, mirrors: &Mirrors, ctx: &Context<'_>) -> Result<SymmetryField> {
+pub fn candidates(
+    land: &grow::Land<'_>,
+    mirrors: &Mirrors,
+    ctx: &Context<'_>,
+) -> Result<Vec<SymmetryField>> {
     let cancel = ctx.token();
     // Nearly all starts cover nearly all: what they have grown into tells them apart.
     let worth = |field: &SymmetryField| match land.wall {
@@ -72,35 +76,36 @@ pub fn find(land: &grow::Land<'_>, mirrors: &Mirrors, ctx: &Context<'_>) -> Resu
         let around = around::Around::of(wall, land.samples);
         grow::fill(land, around.partners, cancel)
     });
-    if let Some(filled) = around.as_ref().filter(|filled| worth(filled) >= ENOUGH) {
+    let around = around.map(|filled| (worth(&filled), filled));
+    if let Some((_, filled)) = around.as_ref().filter(|(worth, _)| *worth >= ENOUGH) {
         ctx.check()?;
-        return Ok(filled.clone());
+        return Ok(vec![filled.clone()]);
     }
     let choices = mirrors.choices();
     let claims = seeds::CLAIMS.iter();
     let starts: Vec<_> = claims
         .flat_map(|&claim| choices.iter().map(move |c| seeds::seeds(land, c, claim)))
         .collect();
-    let mut grown: Vec<SymmetryField> = starts
+    let mut grown: Vec<(f64, SymmetryField)> = starts
         .into_par_iter()
         .map(|seeds| grow(land, seeds, cancel))
+        .map(|field| (worth(&field), field))
         .collect();
     ctx.check()?;
-    let mut worths: Vec<f64> = grown.iter().map(worth).collect();
-    if let Some(filled) = around {
-        worths.push(IN_ORDER * worth(&filled));
-        grown.push(filled);
+    grown.extend(around.map(|(worth, filled)| (IN_ORDER * worth, filled)));
+    grown.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut fields: Vec<SymmetryField> = Vec::new();
+    for (_, field) in grown {
+        if !fields.iter().any(|known| known.is_like(&field)) {
+            fields.push(field);
+        }
     }
-    let best = worths
-        .into_iter()
-        .zip(grown)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, field)| field);
-    Ok(best.unwrap_or_else(|| SymmetryField {
-        partners: vec![None; land.samples.list.len()],
-        maps: vec![None; land.samples.list.len()],
-    }))
+    Ok(fields)
 }
+
+/// Partners nearer than this are one, fraction of L, and fields that are one differ in less than this share of theirs.
+const SAME: f64 = 0.01;
+const DIFFERENT: f64 = 0.05;
 
 impl SymmetryField {
     /// The field over the `kept` samples only.
@@ -139,6 +144,17 @@ impl SymmetryField {
             partners: partners.map(|q| q.as_ref().and_then(placed)).collect(),
             maps: self.maps.clone(),
         }
+    }
+
+    /// Whether another field on the same samples is hardly any other.
+    fn is_like(&self, other: &Self) -> bool {
+        let both = self.partners.iter().zip(&other.partners);
+        let differ = |(p, q): &(&Option<Partner>, &Option<Partner>)| match (p, q) {
+            (Some(p), Some(q)) => (p.position - q.position).norm() > SAME,
+            (None, None) => false,
+            _ => true,
+        };
+        both.filter(differ).count() as f64 <= DIFFERENT * self.partners.len() as f64
     }
 
     /// The share of the samples that have a partner.

@@ -143,6 +143,11 @@ impl Trust {
         self.share * self.likeness()
     }
 
+    /// What tells the better of two fields: of those that score alike the one of which less does not fit.
+    pub fn worth(&self) -> f64 {
+        self.score() - self.unfit
+    }
+
     /// What follows from the figures.
     pub fn verdict(&self) -> Verdict {
         let score = self.score();

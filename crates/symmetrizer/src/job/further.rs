@@ -14,7 +14,7 @@ use crate::optimize::schedule::{Settings, prepared};
 use crate::straighten::StraightenParams;
 
 /// Further bends at the most.
-const MOST: usize = 5;
+const MOST: usize = 8;
 /// What is undone further leaves this share of the mean asymmetry at the most,
 const GAIN: f64 = 0.93;
 /// and each of several that come to that together this one: none of them does harm, but while the half of a shape is bent the

@@ -13,7 +13,7 @@ use crate::report::BendReport;
 use crate::straighten::{StraightenParams, When};
 
 /// Other samples of a surface at the most.
-pub(super) const OTHERS: u64 = 2;
+pub(super) const OTHERS: u64 = 3;
 
 /// A bend of the shape `before`, with that mean asymmetry (fraction of L), which could not be had where it was `looked` for,
 /// all of it or a part undone as other samples of the same surface show it.

@@ -1,16 +1,19 @@
 //! A bend: how far the local mirrors turn over the shape, and whether they are to be believed.
 
+use rayon::prelude::*;
+
 use crate::context::Context;
 use crate::deform::control::{decimated, stiffness_on};
 use crate::error::Result;
 use crate::field::grow::{Land, grow};
 use crate::field::trust::{Trust, Verdict};
-use crate::field::{Mirrors, Partner, SymmetryField, find};
+use crate::field::{Mirrors, Partner, SymmetryField, candidates};
 use crate::geom::{Matrix3, Vector, nearest_orthogonal, sorted_eigen};
 use crate::shape::ClosestPoint;
 use crate::straighten::blend::Blend;
+use crate::straighten::rotations;
 use crate::straighten::rotations::Evenness;
-use crate::straighten::{rotations, settle};
+use crate::straighten::settle::Settler;
 
 /// Local mirrors that turn less, degrees, are one mirror.
 pub const LEAST: f64 = 4.0;
@@ -71,15 +74,19 @@ impl Bend {
     }
 
     fn find_on(land: &Land<'_>, mirrors: &Mirrors, ctx: &mut Context<'_>) -> Result<Option<Self>> {
-        let grown = find(land, mirrors, ctx)?;
+        let starts = candidates(land, mirrors, ctx)?;
+        let Some(first) = starts.first() else {
+            return Ok(None);
+        };
         // An outline without a line that holds for it may have one all the same, only rougher.
         let known = land.wall.is_none() || !mirrors.sure.is_empty();
-        if known && spread(land, &grown) < LEAST {
+        if known && spread(land, first) < LEAST {
             return Ok(None);
         }
-        let first = settle(land, &grown, ctx)?;
-        let trust = Trust::of(land, &first);
-        let (settled, trust) = regrown(land, first, trust, ctx)?;
+        let settler = Settler::new(land);
+        let grown = promising(land, &settler, &starts, ctx)?;
+        let first = settler.settle(grown, ctx)?;
+        let (settled, trust) = regrown(land, &settler, first, ctx)?;
         let field = match trust.verdict() {
             Verdict::Refuse => settled.clone(),
             Verdict::Uncertain if land.wall.is_none() => {
@@ -87,7 +94,7 @@ impl Bend {
             }
             Verdict::Uncertain | Verdict::Accept => settled.of(&trust.trusted),
         };
-        let others = settled.or(&grown);
+        let others = settled.or(grown);
         let turns = rotations::solved(land, (&field, &others), Evenness::AtLast)?;
         let degrees = span(&shared(&turns, &field));
         Ok(Some(Self {
@@ -100,6 +107,27 @@ impl Bend {
     }
 }
 
+/// The one of several fields that is to be trusted most once it has settled a little: as they have grown they tell little.
+fn promising<'a>(
+    land: &Land<'_>,
+    settler: &Settler<'_>,
+    grown: &'a [SymmetryField],
+    ctx: &Context<'_>,
+) -> Result<&'a SymmetryField> {
+    if grown.len() == 1 || land.wall.is_some() {
+        return Ok(&grown[0]);
+    }
+    let cancel = ctx.token();
+    let worth =
+        |field: &SymmetryField| Ok(Trust::of(land, &settler.glimpse(field, cancel)?).worth());
+    let worths: Vec<f64> = grown.par_iter().map(worth).collect::<Result<_>>()?;
+    // The first of several.
+    let best = (0..worths.len())
+        .rev()
+        .max_by(|&a, &b| worths[a].total_cmp(&worths[b]));
+    Ok(&grown[best.unwrap_or(0)])
+}
+
 /// Share of the samples without a partner that fits above which a field is grown once more.
 const LOOSE: f64 = 0.03;
 /// Times at the most.
@@ -109,20 +137,21 @@ const ROUNDS: usize = 3;
 /// it grew are found anew. Whichever is to be trusted more.
 fn regrown(
     land: &Land<'_>,
+    settler: &Settler<'_>,
     first: SymmetryField,
-    trust: Trust,
     ctx: &mut Context<'_>,
 ) -> Result<(SymmetryField, Trust)> {
-    let (mut field, mut trust) = (first, trust);
+    let mut trust = Trust::of(land, &first);
+    let mut field = first;
     for _ in 0..ROUNDS {
         let loose = trust.verdict() != Verdict::Accept || trust.unfit > LOOSE;
         if !loose || land.wall.is_some() {
             break;
         }
         let seeds = field.of(&trust.trusted).partners;
-        let again = settle(land, &grow(land, seeds, ctx.token()), ctx)?;
+        let again = settler.settle(&grow(land, seeds, ctx.token()), ctx)?;
         let sure = Trust::of(land, &again);
-        if sure.score() <= trust.score() {
+        if sure.worth() <= trust.worth() {
             break;
         }
         (field, trust) = (again, sure);

@@ -26,7 +26,7 @@ use turned::turned;
 pub use bend::Bend;
 pub use params::{StraightenParams, When};
 pub use pose::{Posed, bend_again};
-pub use settle::settle;
+pub use settle::Settler;
 
 /// A straightened surface.
 #[derive(Debug, Clone)]

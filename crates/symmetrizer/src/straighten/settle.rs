@@ -6,7 +6,7 @@
 
 use rayon::prelude::*;
 
-use crate::context::Context;
+use crate::context::{CancelToken, Context};
 use crate::deform::elastic::Motion;
 use crate::deform::solver::SolveError;
 use crate::error::{Error, Result};
@@ -38,56 +38,91 @@ const TOO_FAR: f64 = 0.03;
 const MIN_COS: f64 = 0.5;
 /// Rounds at the most, and the share over which the stiffness falls.
 const ROUNDS: u32 = 30;
+/// Those after which it shows which of several fields is to be trusted.
+const GLIMPSE: u32 = 8;
 const FALLS: f64 = 0.7;
 /// Settled where the images move less in the mean, fraction of L.
 const SETTLED: f64 = 1e-4;
 /// Radius of the local isometries at the end, fraction of L.
 const RADIUS: f64 = 0.045;
 
-/// `field` with its pairs settled.
-///
-/// # Errors
-/// [`Error::Numerical`], [`Error::Cancelled`].
-pub fn settle(
-    land: &Land<'_>,
-    field: &SymmetryField,
-    ctx: &mut Context<'_>,
-) -> Result<SymmetryField> {
-    let mut settling = Settling::new(land, field)?;
-    let mut meetings = settling.meetings();
-    for round in 0..ROUNDS {
-        ctx.progress(f64::from(round) / f64::from(ROUNDS))?;
-        let part = (f64::from(round) / (FALLS * f64::from(ROUNDS))).min(1.0);
-        let stiff = STIFF[0] * (STIFF[1] / STIFF[0]).powf(part);
-        settling
-            .step(&meetings, stiff)
-            .map_err(|_| Error::Numerical {
-                stage: "straighten",
-                step: round as usize,
-                what: "the motions of the samples could not be solved for".into(),
-            })?;
-        let next = settling.meetings();
-        let moved = moved(&meetings, &next);
-        meetings = next;
-        if part == 1.0 && moved < SETTLED {
-            break;
+/// What fields settle on: what is known of a surface and its samples once for all of them.
+pub struct Settler<'a> {
+    land: &'a Land<'a>,
+    blend: Blend,
+    boundary: Boundary,
+    slopes: Vec<[Option<Slope>; SIGNS]>,
+}
+
+impl<'a> Settler<'a> {
+    /// On `land`.
+    pub fn new(land: &'a Land<'a>) -> Self {
+        Self {
+            blend: Blend::new(land.surface, land.samples),
+            boundary: Boundary::of(land.surface),
+            slopes: slopes(land.samples, land.reach),
+            land,
         }
     }
-    let partners: Vec<Option<Partner>> = meetings
-        .iter()
-        .map(|m| m.as_ref().map(|m| m.partner))
-        .collect();
-    let maps = fit(land.samples, land.reach, &partners, Local::Improper, RADIUS);
-    Ok(SymmetryField { partners, maps })
+
+    /// `field` with its pairs settled.
+    ///
+    /// # Errors
+    /// [`Error::Numerical`], [`Error::Cancelled`].
+    pub fn settle(&self, field: &SymmetryField, ctx: &mut Context<'_>) -> Result<SymmetryField> {
+        self.settled(ROUNDS, field, |part| ctx.progress(part))
+    }
+
+    /// The same with pairs that have settled as far as it takes to tell fields from each other.
+    ///
+    /// # Errors
+    /// As for [`Settler::settle`].
+    pub fn glimpse(&self, field: &SymmetryField, cancel: &CancelToken) -> Result<SymmetryField> {
+        self.settled(GLIMPSE, field, |_| cancel.check())
+    }
+
+    /// In so many `rounds` at the most, before each of which the share that is done is `reached`.
+    fn settled(
+        &self,
+        rounds: u32,
+        field: &SymmetryField,
+        mut reached: impl FnMut(f64) -> Result<()>,
+    ) -> Result<SymmetryField> {
+        let land = self.land;
+        let mut settling = Settling::new(self, field)?;
+        let mut meetings = settling.meetings();
+        for round in 0..rounds {
+            reached(f64::from(round) / f64::from(rounds))?;
+            let part = (f64::from(round) / (FALLS * f64::from(rounds))).min(1.0);
+            let stiff = STIFF[0] * (STIFF[1] / STIFF[0]).powf(part);
+            settling
+                .step(&meetings, stiff)
+                .map_err(|_| Error::Numerical {
+                    stage: "straighten",
+                    step: round as usize,
+                    what: "the motions of the samples could not be solved for".into(),
+                })?;
+            let next = settling.meetings();
+            let moved = moved(&meetings, &next);
+            meetings = next;
+            if part == 1.0 && moved < SETTLED {
+                break;
+            }
+        }
+        let partners: Vec<Option<Partner>> = meetings
+            .iter()
+            .map(|m| m.as_ref().map(|m| m.partner))
+            .collect();
+        let maps = fit(land.samples, land.reach, &partners, Local::Improper, RADIUS);
+        Ok(SymmetryField { partners, maps })
+    }
 }
 
 /// The samples on their way.
 struct Settling<'a> {
+    on: &'a Settler<'a>,
     land: &'a Land<'a>,
-    blend: Blend,
     closest: ClosestPoint,
-    boundary: Boundary,
-    slopes: Vec<[Option<Slope>; SIGNS]>,
     motions: Vec<Motion>,
 }
 
@@ -120,7 +155,8 @@ fn moved(before: &[Option<Meeting>], after: &[Option<Meeting>]) -> f64 {
 
 impl<'a> Settling<'a> {
     /// Begins with what `field` says by itself.
-    fn new(land: &'a Land<'a>, field: &SymmetryField) -> Result<Self> {
+    fn new(on: &'a Settler<'a>, field: &SymmetryField) -> Result<Self> {
+        let land = on.land;
         let turns = rotations::solved(land, (field, field), Evenness::AtFirst)?;
         let begun = solve(land, field, &turns)?;
         let begun = land.surface.with_positions(begun);
@@ -131,18 +167,16 @@ impl<'a> Settling<'a> {
             center: begun.point(&s.at),
         });
         Ok(Self {
-            blend: Blend::new(land.surface, land.samples),
             closest: land.closest.clone(),
-            boundary: Boundary::of(land.surface),
-            slopes: slopes(land.samples, land.reach),
             motions: motions.collect(),
+            on,
             land,
         })
     }
 
     /// What each sample meets in the mirror.
     fn meetings(&mut self) -> Vec<Option<Meeting>> {
-        let positions = self.blend.positions(self.land.surface, &self.motions);
+        let positions = self.on.blend.positions(self.land.surface, &self.motions);
         let now = self.land.surface.with_positions(positions);
         self.closest.follow(&now);
         let samples = 0..self.land.samples.list.len();
@@ -161,7 +195,7 @@ impl<'a> Settling<'a> {
             .nearest_facing(&image, &mirrored(&normal), MIN_COS, TOO_FAR)?;
         let rest = self.land.surface;
         // Beyond the boundary there is nothing to meet.
-        if self.boundary.holds(rest, &hit.at) {
+        if self.on.boundary.holds(rest, &hit.at) {
             return None;
         }
         let across = mirrored(&now.normal(&hit.at));
@@ -245,7 +279,9 @@ impl<'a> Settling<'a> {
         equations.add(rows(&meeting.normal), meeting.normal.dot(&gap), say);
 
         let way = meeting.partner.position - self.land.samples.list[k as usize].position;
-        let slopes = self.slopes[s as usize].iter().zip(&self.slopes[k as usize]);
+        let slopes = self.on.slopes[s as usize]
+            .iter()
+            .zip(&self.on.slopes[k as usize]);
         let unlike: Vec<(f64, Vector)> = slopes
             .filter_map(|(p, q)| {
                 let (p, q) = (p.as_ref()?, q.as_ref()?);
