@@ -252,6 +252,9 @@ fn made(
         plane::give_up_on_worse(&mut job, ctx);
         guard::say_part(&job, part, ctx);
     }
+    if let Some(bend) = &mut job.report.bend {
+        bend.follow(&job.report.steps);
+    }
     job.report.warnings = ctx.warnings().to_vec();
     Ok(job)
 }

@@ -125,13 +125,18 @@ fn bend(bend: &BendReport, picture: Option<&Path>) -> String {
             kept.degrees, kept.across, kept.line
         )
     });
+    let further: Vec<String> = bend.further.iter().map(|b| format!("{b:.0}")).collect();
+    let further = match further.is_empty() {
+        true => String::new(),
+        false => format!("; once they were, bends of {} more", further.join(", ")),
+    };
     let ask = match bend.verdict {
         Verdict::Uncertain if bend.removed == 0.0 && bend.kept.is_none() => look(picture),
         _ => String::new(),
     };
     format!(
         "bend         {verdict} (score {:.2}: {:.0} % trusted, likeness {:.2}; {:.1} % without a partner that \
-         fits); local mirrors turn by {:.0} degrees, {:.0} removed\n{kept}{ask}",
+         fits); local mirrors turn by {:.0} degrees, {:.0} removed{further}\n{kept}{ask}",
         bend.score,
         100.0 * bend.trusted,
         bend.likeness,
@@ -257,6 +262,7 @@ mod tests {
             rival: None,
             degrees: 34.0,
             removed: 0.0,
+            further: Vec::new(),
             kept: None,
         };
         let text = bend(&report, Some(Path::new("p.png")));
@@ -265,6 +271,12 @@ mod tests {
         assert!(bend(&report, None).contains("--picture FILE"));
         report.removed = 34.0;
         assert!(!bend(&report, None).contains("--accept-uncertain"));
+        report.further = vec![9.4, 28.7];
+        let text = bend(&report, None);
+        assert!(
+            text.contains("34 removed; once they were, bends of 9, 29 more"),
+            "{text}"
+        );
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::field::trust::Verdict;
+use crate::optimize::Step;
 use crate::straighten::Bend;
 
 /// A bend and whether it is believed.
@@ -28,6 +29,9 @@ pub struct BendReport {
     pub degrees: f64,
     /// How much of it was removed, degrees.
     pub removed: f64,
+    /// Bends that showed in the rest once it was, and were undone one after the other, degrees each.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub further: Vec<f64>,
     /// What was kept of it; none where all was removed, or nothing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub kept: Option<KeptReport>,
@@ -58,7 +62,17 @@ impl BendReport {
             rival: bend.trust.rival,
             degrees: bend.degrees,
             removed: 0.0,
+            further: Vec::new(),
             kept: None,
         }
+    }
+
+    /// Takes from the `steps` of the work what was undone after the first bend.
+    pub fn follow(&mut self, steps: &[Step]) {
+        let bends = steps.iter().filter_map(|step| match step {
+            Step::Straighten { bend, .. } => Some(*bend),
+            _ => None,
+        });
+        self.further = bends.skip(1).collect();
     }
 }
