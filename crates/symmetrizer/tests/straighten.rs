@@ -246,6 +246,9 @@ fn bent_and_twisted_animals_come_out_straight() {
         ("3d/homer.obj", "bend", 60.0, 1, 0, 0.92),
         ("3d/spot_seams.obj", "bend", 60.0, 2, 0, 0.85),
         ("3d/cow.obj", "twist", 50.0, 0, 2, 0.9),
+        // Fields that seem the best as they have grown settle at a third and at .86 of these.
+        ("3d/spot_seams.obj", "twist", 60.0, 2, 0, 0.78),
+        ("3d/homer.obj", "twist", 60.0, 1, 0, 0.88),
     ];
     for (name, kind, degrees, along, side, undone) in cases {
         let Some(path) = model(name) else { return };
@@ -269,7 +272,7 @@ fn bent_and_twisted_animals_come_out_straight() {
         assert!(share > undone, "{name}: {share}");
         assert_eq!(bend.trust.verdict(), Verdict::Accept, "{name}");
         assert!(
-            (bend.degrees / degrees - 1.0).abs() < 0.25,
+            (bend.degrees / degrees - 1.0).abs() < 0.3,
             "{}",
             bend.degrees
         );
