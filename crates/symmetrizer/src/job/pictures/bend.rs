@@ -21,7 +21,7 @@ use crate::straighten::blend::Blend;
 use crate::straighten::{Straightened, straighten};
 
 pub use chart::Chart;
-use slices::Slices;
+use slices::{Mirrors, Slices};
 
 /// The colours of trusted samples, of those that are not, and of those without a partner; sRGB, told apart
 /// by the colour-blind too.
@@ -262,8 +262,12 @@ impl<'a> Shown<'a> {
         let states = surfaces.into_iter().enumerate();
         states
             .map(|(k, (name, surface))| {
-                // The field's own mirrors are those of the input.
-                let (tiles, spine) = self.slices.tiles(&surface, k == 0);
+                let mirrors = match (k, &self.report.kept) {
+                    (0, _) => Mirrors::OfField,
+                    (2, None) => Mirrors::In(self.job.planes[1]),
+                    _ => Mirrors::WithPairs,
+                };
+                let (tiles, spine) = self.slices.tiles(&surface, mirrors);
                 State {
                     name,
                     surface,

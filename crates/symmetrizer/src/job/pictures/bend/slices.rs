@@ -7,6 +7,7 @@ use crate::picture::checks::hue;
 use crate::sample::Samples;
 use crate::shape::{Surface, SurfacePoint};
 use crate::straighten::Bend;
+use crate::transform::Plane;
 
 /// Slices along the spine.
 const SLICES: usize = 9;
@@ -60,12 +61,22 @@ impl Slices {
         }
     }
 
-    /// The mirrors of the slices where the shape lies as `surface` does, and the middles of their pairs;
-    /// those of the field itself if `own`, on the input.
-    pub fn tiles(&self, surface: &Surface, own: bool) -> (Vec<Tile>, Vec<Point>) {
+    /// The mirrors of the slices where the shape lies as `surface` does, and the middles of their pairs.
+    pub fn tiles(&self, surface: &Surface, mirrors: Mirrors) -> (Vec<Tile>, Vec<Point>) {
         let slices = self.slices.iter();
-        slices.map(|s| s.tile(surface, &self.axes, own)).unzip()
+        slices.map(|s| s.tile(surface, &self.axes, mirrors)).unzip()
     }
+}
+
+/// Where the mirrors of slices lie.
+#[derive(Debug, Clone, Copy)]
+pub enum Mirrors {
+    /// As those of the field, on the input.
+    OfField,
+    /// As those of the straight shape, turned with their pairs.
+    WithPairs,
+    /// In the one mirror of a symmetric shape.
+    In(Plane),
 }
 
 impl Slice {
@@ -112,19 +123,27 @@ impl Slice {
         })
     }
 
-    fn tile(&self, surface: &Surface, axes: &[Vector; 2], own: bool) -> (Tile, Point) {
+    fn tile(&self, surface: &Surface, axes: &[Vector; 2], mirrors: Mirrors) -> (Tile, Point) {
         let places: Vec<Point> = self
             .pairs
             .iter()
             .flatten()
             .map(|at| surface.point(at))
             .collect();
-        let middle = mean(&places);
+        let mut middle = mean(&places);
         let turn = turned(&self.straight, &places);
         let [mut along, mut across] = axes.map(|axis| turn * axis);
-        if own {
-            along = (along - self.normal * self.normal.dot(&along)).normalize();
-            let upright = self.normal.cross(&along);
+        let normal = match mirrors {
+            Mirrors::WithPairs => None,
+            Mirrors::OfField => Some(self.normal),
+            Mirrors::In(plane) => {
+                middle -= plane.normal * (plane.normal.dot(&middle.coords) - plane.offset);
+                Some(plane.normal)
+            }
+        };
+        if let Some(normal) = normal {
+            along = (along - normal * normal.dot(&along)).normalize();
+            let upright = normal.cross(&along);
             across = upright * upright.dot(&across).signum();
         }
         let heights = self
