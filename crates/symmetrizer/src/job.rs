@@ -107,7 +107,7 @@ fn find_in(
 ) -> Result<Detected> {
     warn_of(&working.mended, ctx);
     ctx.stage("detect", |ctx| {
-        Detected::find((working, None), mesh.diagonal(), params, ctx)
+        Detected::sought(working, mesh.diagonal(), params, ctx)
     })
 }
 

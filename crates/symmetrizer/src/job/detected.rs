@@ -23,7 +23,46 @@ pub struct Detected {
     pub detection: Detection,
 }
 
+/// Symmetries of less than this share of the surface come by chance on any.
+const TELLING: f64 = 0.1;
+/// Other samples of a surface at the most.
+const OTHERS: u64 = 2;
+
 impl Detected {
+    /// [`Self::find`] of a shape of space. Where nothing is found but a mirror that is in doubt, up to twice more with other samples of
+    /// the same surface: whether it stays in doubt hangs on where they lie (decision 0013).
+    pub(super) fn sought(
+        working: Working,
+        diagonal: f64,
+        params: &DetectParams,
+        ctx: &mut Context<'_>,
+    ) -> Result<Self> {
+        let first = Self::find((working, None), diagonal, params, ctx)?;
+        if !first.is_in_doubt() {
+            return Ok(first);
+        }
+        for turn in 1..=OTHERS {
+            let working = first.working.clone();
+            let again = ctx.drawn_anew(turn, |ctx| {
+                Self::find((working, None), diagonal, params, ctx)
+            })?;
+            if mirrors(&again.detection).any(|s| s.area_fraction >= TELLING) {
+                return Ok(again);
+            }
+        }
+        Ok(first)
+    }
+
+    /// Whether a mirror is in doubt and nothing else tells of the shape.
+    fn is_in_doubt(&self) -> bool {
+        let found = &self.detection;
+        let small = |s: &Symmetry| s.area_fraction < TELLING;
+        !found.doubtful.is_empty()
+            && found.groups.is_empty()
+            && found.continuous.is_empty()
+            && found.symmetries.iter().all(small)
+    }
+
     /// The symmetries that are wanted of a shape of space or, with its wall, of the plane, with that `diagonal` in the file's units.
     pub(super) fn find(
         (working, wall): (Working, Option<Wall>),
