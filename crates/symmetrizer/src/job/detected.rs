@@ -25,8 +25,10 @@ pub struct Detected {
 
 /// Symmetries of less than this share of the surface come by chance on any.
 const TELLING: f64 = 0.1;
-/// Other samples of a surface at the most.
+/// Other samples of a surface at the most, and the share of it that a mirror holds for which is found in them: parts of a heap of
+/// bones have some.
 const OTHERS: u64 = 2;
+const MOST: f64 = 0.35;
 
 impl Detected {
     /// [`Self::find`] of a shape of space. Where nothing is found but a mirror that is in doubt, up to twice more with other samples of
@@ -46,7 +48,7 @@ impl Detected {
             let again = ctx.drawn_anew(turn, |ctx| {
                 Self::find((working, None), diagonal, params, ctx)
             })?;
-            if mirrors(&again.detection).any(|s| s.area_fraction >= TELLING) {
+            if mirrors(&again.detection).any(|s| s.area_fraction >= MOST) {
                 return Ok(again);
             }
         }
