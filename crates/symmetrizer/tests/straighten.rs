@@ -242,15 +242,15 @@ fn what_is_straight_has_no_bend() {
 #[test]
 fn bent_and_twisted_animals_come_out_straight() {
     let cases = [
-        ("3d/cow.obj", "bend", 90.0, 0, 2, 0.93),
-        ("3d/homer.obj", "bend", 60.0, 1, 0, 0.92),
-        ("3d/spot_seams.obj", "bend", 60.0, 2, 0, 0.85),
-        ("3d/cow.obj", "twist", 50.0, 0, 2, 0.9),
+        ("3d/cow.obj", "bend", 90.0, 0, 2, 0.93, 0.25),
+        ("3d/homer.obj", "bend", 60.0, 1, 0, 0.92, 0.25),
+        ("3d/spot_seams.obj", "bend", 60.0, 2, 0, 0.85, 0.25),
+        ("3d/cow.obj", "twist", 50.0, 0, 2, 0.9, 0.25),
         // Fields that seem the best as they have grown settle at a third and at .86 of these.
-        ("3d/spot_seams.obj", "twist", 60.0, 2, 0, 0.78),
-        ("3d/homer.obj", "twist", 60.0, 1, 0, 0.88),
+        ("3d/spot_seams.obj", "twist", 60.0, 2, 0, 0.78, 0.3),
+        ("3d/homer.obj", "twist", 60.0, 1, 0, 0.88, 0.25),
     ];
-    for (name, kind, degrees, along, side, undone) in cases {
+    for (name, kind, degrees, along, side, undone, off) in cases {
         let Some(path) = model(name) else { return };
         let mesh = load(&path);
         let bent = match kind {
@@ -272,7 +272,7 @@ fn bent_and_twisted_animals_come_out_straight() {
         assert!(share > undone, "{name}: {share}");
         assert_eq!(bend.trust.verdict(), Verdict::Accept, "{name}");
         assert!(
-            (bend.degrees / degrees - 1.0).abs() < 0.3,
+            (bend.degrees / degrees - 1.0).abs() < off,
             "{}",
             bend.degrees
         );

@@ -38,9 +38,9 @@ const TOO_FAR: f64 = 0.03;
 const MIN_COS: f64 = 0.5;
 /// Rounds at the most, and the share over which the stiffness falls.
 const ROUNDS: u32 = 30;
-/// Those after which it shows which of several fields is to be trusted.
-const GLIMPSE: u32 = 8;
 const FALLS: f64 = 0.7;
+/// Rounds after which it shows which of several fields is to be trusted.
+const GLIMPSE: u32 = 8;
 /// Settled where the images move less in the mean, fraction of L.
 const SETTLED: f64 = 1e-4;
 /// Radius of the local isometries at the end, fraction of L.
