@@ -6,7 +6,7 @@ use crate::patch::grow::Candidate;
 use crate::patch::judge::too_small;
 use crate::patch::params::PatchParams;
 use crate::patch::reach::Reach;
-use crate::patch::refine::{refine, weigh};
+use crate::patch::refine::{Contact, refine, weigh};
 use crate::patch::symmetry::PatchPair;
 use crate::transform::{Class, Isometry};
 
@@ -68,10 +68,12 @@ const MOTION: [Round; 6] = [
 const WELL: f64 = 0.4;
 /// Share of the least area that a candidate must reach while it settles.
 const HOPEFUL: f64 = 0.8;
-/// Rounds of settling at the most.
-const SETTLING: usize = 12;
+/// Rounds of settling at the most, and steps of each: as long as images move by a fraction of a triangle, the planes that they
+/// touched stand for the surface, and most of the way is taken on those.
+const SETTLING: usize = 5;
+const STEPS: usize = 4;
 /// The round after which a motion is refused that fills the tolerance to so many times what a symmetry does at the most.
-const PASSING: usize = 2;
+const PASSING: usize = 1;
 const PASSES: f64 = 1.25;
 /// Settled: contacts move by less than this from round to round, fraction of L.
 const SETTLED: f64 = 2e-5;
@@ -152,19 +154,39 @@ fn settle(
                 return Err(passing(filled));
             }
         }
+        let before = t;
         let mut contacts = contacts(ground, &grown);
-        weigh(&t, &mut contacts, spread);
-        let next = refine(&t, *class, &contacts);
-        let moved = contacts
-            .iter()
-            .map(|c| (next.apply(&c.x) - t.apply(&c.x)).norm_squared());
-        let moved = (moved.sum::<f64>() / contacts.len() as f64).sqrt();
-        t = next;
-        if moved < SETTLED {
+        for _ in 0..STEPS {
+            weigh(&t, &mut contacts, spread);
+            let next = refine(&t, *class, &contacts);
+            let moved = moved(&t, &next, &contacts);
+            t = next;
+            if moved < SETTLED {
+                break;
+            }
+            slide(&t, &mut contacts);
+        }
+        if moved(&before, &t, &contacts) < SETTLED {
             break;
         }
     }
     Ok(Settled { t, spread })
+}
+
+/// How far the images of contacts are from each other under two isometries, rms.
+fn moved(from: &Isometry, to: &Isometry, contacts: &[Contact]) -> f64 {
+    let squares = contacts
+        .iter()
+        .map(|c| (to.apply(&c.x) - from.apply(&c.x)).norm_squared());
+    (squares.sum::<f64>() / contacts.len() as f64).sqrt()
+}
+
+/// Takes contacts along their planes to where their images are now.
+fn slide(t: &Isometry, contacts: &mut [Contact]) {
+    for c in contacts {
+        let z = t.apply(&c.x);
+        c.y = z - c.normal * c.normal.dot(&(z - c.y));
+    }
 }
 
 /// The rms residual of what has grown to a tolerance, in units of that.
