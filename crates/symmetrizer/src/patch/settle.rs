@@ -37,27 +37,31 @@ impl Round {
 
 /// Tolerances of the growing rounds, in units of the class's tolerance: wide first, while the
 /// cluster's isometry is still rough.
-const WIDE: [Round; 4] = [
+const WIDE: [Round; 6] = [
     Round::far(2.5),
     Round::far(2.0),
     Round::far(1.5),
     Round::far(1.0),
+    Round::far(1.0),
+    Round::far(1.0),
 ];
 /// For mirrors a second time, as if only what holds well were there: a part that moves as one piece is
 /// not drawn towards its neighbours.
-const NARROW: [Round; 3] = [
+const NARROW: [Round; 4] = [
     Round::far(1.2),
     Round::far(0.8),
+    Round::far(0.4),
     Round::far(0.4),
 ];
 /// As a rigid motion has more freedom, its votes are rougher.
 /// The first are fitted to the places that voted and what is next to them alone: plain ground around
 /// an element, where most motions nearly hold, would draw the fit to itself.
-const MOTION: [Round; 5] = [
+const MOTION: [Round; 6] = [
     Round::near(5.0),
     Round::near(3.0),
     Round::near(2.0),
     Round::far(1.5),
+    Round::far(1.0),
     Round::far(1.0),
 ];
 /// Residual up to which a place speaks for one of two mirrors, in units of the tolerance.
