@@ -53,10 +53,10 @@ const LEADING: usize = 6;
 /// Steps of a climb at the most, and the last step's length in units of the kernel's radius: where modes are told apart, and at
 /// the end.
 const STEPS: usize = 50;
-const NEARLY: f64 = 4e-2;
+const NEARLY: f64 = 1e-2;
 const AT_REST: f64 = 1e-4;
 /// Starts at the most, the densest: several times the modes that are looked at.
-const STARTS: usize = 800;
+const STARTS: usize = 1500;
 /// With fewer votes within the kernel's radius a place is no start: a mode of as many as a symmetry has is higher elsewhere.
 const SOME: usize = 3;
 

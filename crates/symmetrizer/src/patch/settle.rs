@@ -68,10 +68,25 @@ const MOTION: [Round; 6] = [
 const WELL: f64 = 0.4;
 /// Share of the least area that a candidate must reach while it settles.
 const HOPEFUL: f64 = 0.8;
-/// Rounds of settling at the most, and steps of each: as long as images move by a fraction of a triangle, the planes that they
-/// touched stand for the surface, and most of the way is taken on those.
-const SETTLING: usize = 5;
-const STEPS: usize = 4;
+/// How far a candidate settles.
+struct Settling {
+    /// Rounds at the most.
+    rounds: usize,
+    /// Steps of each.
+    steps: usize,
+}
+
+impl Settling {
+    /// Of motions there are hundreds: while images move by a fraction of a triangle, the planes that they touched stand for the
+    /// surface, and most of the way is taken on those. Mirrors are judged by what the surface says in each step.
+    fn of(class: Class) -> Self {
+        match class {
+            Class::Mirror => Self { rounds: 12, steps: 1 },
+            Class::Proper | Class::Improper => Self { rounds: 5, steps: 4 },
+        }
+    }
+}
+
 /// The round after which a motion is refused that fills the tolerance to so many times what a symmetry does at the most.
 const PASSING: usize = 1;
 const PASSES: f64 = 1.25;
@@ -139,7 +154,8 @@ fn settle(
     }
     let last = rounds.last().map_or(1.0, |r| r.tolerance) * tolerance;
     let mut spread = 0.0;
-    for round in 0..SETTLING {
+    let settling = Settling::of(*class);
+    for round in 0..settling.rounds {
         let grown = reach.grow(&t, last, u32::MAX);
         if grown.is_empty() {
             return Err(NOWHERE.into());
@@ -156,7 +172,7 @@ fn settle(
         }
         let before = t;
         let mut contacts = contacts(ground, &grown);
-        for _ in 0..STEPS {
+        for _ in 0..settling.steps {
             weigh(&t, &mut contacts, spread);
             let next = refine(&t, *class, &contacts);
             let moved = moved(&t, &next, &contacts);
