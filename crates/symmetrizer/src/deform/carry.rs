@@ -1,5 +1,7 @@
 //! Carrying a fine surface along with a control mesh that was deformed by other means.
 
+use rayon::prelude::*;
+
 use crate::deform::elastic::{Binding, Motion, Sites};
 use crate::geom::{Matrix3, Point, nearest_orthogonal};
 use crate::shape::Surface;
@@ -39,5 +41,5 @@ pub fn motions(before: &Surface, after: &Surface) -> Vec<Motion> {
             center: after.positions[v],
         }
     };
-    (0..count).map(motion).collect()
+    (0..count).into_par_iter().map(motion).collect()
 }

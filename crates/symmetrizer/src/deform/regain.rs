@@ -1,6 +1,6 @@
 //! A part of a deformed surface regains the form that it has at rest, where the rest of the surface took it.
 
-use crate::deform::carry::motions;
+use crate::deform::elastic::Motion;
 use crate::deform::failure;
 use crate::deform::harmonic::rotations_inside;
 use crate::deform::laplacian::edge_weights;
@@ -9,20 +9,24 @@ use crate::error::Result;
 use crate::geom::{Matrix3, Point};
 use crate::shape::Surface;
 
-/// Positions of `now`, a deformed state of `rest`, with the form at rest where a vertex is in the `core`: edges
+/// Positions of `now`, a deformed state of `rest` to which its vertices have come by these `motions`, with the form at rest where a vertex is in the `core`: edges
 /// there are those of `rest`, turned as the surface around has turned (harmonic rotations). What is `freed`
 /// besides makes room: it keeps the form that it has now, and moves (Poisson's equation for both, as in Yu et al.
 /// 2004). All else stays, as do loose parts that are freed as a whole: nothing holds them.
 ///
 /// # Errors
 /// [`crate::Error::Numerical`].
-pub fn regain(rest: &Surface, now: &Surface, core: &[bool], freed: &[bool]) -> Result<Vec<Point>> {
+pub fn regain(
+    (rest, now): (&Surface, &Surface),
+    motions: &[Motion],
+    core: &[bool],
+    freed: &[bool],
+) -> Result<Vec<Point>> {
     let mut positions = now.positions.clone();
     let patch = Patch::new(rest, freed);
     if !patch.held.contains(&false) {
         return Ok(positions);
     }
-    let motions = motions(rest, now);
     let vertices = patch.vertices.iter().zip(&patch.held);
     let known: Vec<Option<Matrix3>> = vertices
         .map(|(&v, held)| {

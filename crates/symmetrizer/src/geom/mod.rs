@@ -1,8 +1,10 @@
 //! Points, vectors and matrices in f64, and small linear algebra that several floors share.
 
 pub mod nearest;
+mod orthogonal;
 
 pub use nearest::PointIndex;
+pub use orthogonal::nearest_orthogonal;
 
 /// A point of space; 2D shapes live at z = 0.
 pub type Point = nalgebra::Point3<f64>;
@@ -49,20 +51,6 @@ pub fn any_orthogonal(n: &Vector) -> Vector {
 /// The rotation `exp([omega])` about the axis omega by |omega| radians (Rodrigues).
 pub fn exp_rotation(omega: &Vector) -> Matrix3 {
     nalgebra::Rotation3::new(*omega).into_inner()
-}
-
-/// The orthogonal matrix nearest to `m` of determinant -1 if `improper`, else +1 (Kabsch 1976).
-pub fn nearest_orthogonal(m: &Matrix3, improper: bool) -> Matrix3 {
-    let svd = m.svd(true, true);
-    let (Some(u), Some(v_t)) = (svd.u, svd.v_t) else {
-        return Matrix3::identity();
-    };
-    let hand = if improper { -1.0 } else { 1.0 };
-    // The direction with the least to say takes the sign.
-    let least = svd.singular_values.imin();
-    let mut sign = Vector::repeat(1.0);
-    sign[least] = hand * (u * v_t).determinant().signum();
-    u * Matrix3::from_diagonal(&sign) * v_t
 }
 
 /// The median, the upper of two; `None` of nothing. Changes the order of `values`.

@@ -144,6 +144,31 @@ pub(super) fn unbend_part(
     }))
 }
 
+/// The bend of the state `before` that was `looked` at and undone, undone once more with other `settings`.
+pub(super) fn undone_again(
+    before: &Detected,
+    asymmetry: f64,
+    looked: &mut Looked,
+    params: &StraightenParams,
+    settings: Settings<'_>,
+    ctx: &mut Context<'_>,
+) -> Result<Option<Optimized>> {
+    let Some(bent) = &mut looked.bent else {
+        return Ok(None);
+    };
+    let surface = &before.working.surface;
+    let samples = &before.detection.samples;
+    let reach = Reach::new(samples, REACH);
+    let closest = ClosestPoint::new(surface);
+    let land = Land::new(surface, &closest, samples, &reach).with_stiffness(settings.stiffness);
+    let share = params.share;
+    let undone = undone(before, asymmetry, &land, &bent.bend, share, settings, ctx)?;
+    Ok(undone.map(|undone| {
+        bent.straight = Some(undone.straight);
+        undone.done
+    }))
+}
+
 /// A bend undone.
 struct Undone {
     straight: Straightened,

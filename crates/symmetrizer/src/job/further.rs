@@ -5,6 +5,7 @@ use crate::context::Context;
 use crate::error::Result;
 use crate::field::trust::Verdict;
 use crate::job::Detected;
+use crate::job::bent::undone_again;
 use crate::job::guard::{mended, tangled};
 use crate::job::otherwise::OTHERS;
 use crate::job::spared::spared;
@@ -92,22 +93,23 @@ fn tried(
     settings: Settings<'_>,
     ctx: &mut Context<'_>,
 ) -> Result<Option<(Optimized, State, bool)>> {
-    let attempt = |settings, ctx: &mut Context<'_>| match unbent(state, params, settings, ctx)? {
-        Some((next, looked)) => Ok(Some((mended(before, next, ctx)?, looked))),
-        None => Ok(None),
-    };
-    let Some((mut next, mut looked)) = attempt(settings, ctx)? else {
+    let Some((next, mut looked)) = unbent(state, params, settings, ctx)? else {
         return Ok(None);
     };
+    let mut next = mended(before, next, ctx)?;
     if tangled(before, &next) {
         let mask = spared(&state.found, &next.positions);
         let within = Settings {
             region: Some(&mask),
             ..settings
         };
-        match attempt(within, ctx)? {
-            Some(again) if !tangled(before, &again.0) => (next, looked) = again,
-            _ => return Ok(None),
+        let (found, mean) = (&state.found, state.mean);
+        match undone_again(found, mean, &mut looked, params, within, ctx)? {
+            Some(again) => next = mended(before, again, ctx)?,
+            None => return Ok(None),
+        }
+        if tangled(before, &next) {
+            return Ok(None);
         }
     }
     let after = State::of(before, &next, settings, ctx)?;

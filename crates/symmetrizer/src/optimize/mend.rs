@@ -7,6 +7,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+use crate::deform::carry::motions;
 use crate::deform::regain::regain;
 use crate::error::Result;
 use crate::optimize::tangles::Tangles;
@@ -63,6 +64,7 @@ pub fn mend(before: &Surface, after: Surface) -> Result<Mended> {
         return Ok(untouched(after, 0));
     }
     let mut mending = Mending::new(before);
+    let motions = motions(before, &after);
     let mut tangled = mending.tangles.faces(before, &after);
     let mut best = untouched(after.clone(), tangled.len());
     for _ in 0..ATTEMPTS {
@@ -76,7 +78,7 @@ pub fn mend(before: &Surface, after: Surface) -> Result<Mended> {
             break;
         }
         let freed = mending.within(before, ROOM);
-        let surface = after.with_positions(regain(before, &after, &core, &freed)?);
+        let surface = after.with_positions(regain((before, &after), &motions, &core, &freed)?);
         tangled = mending.tangles.faces(before, &surface);
         let mended = Mended {
             surface,

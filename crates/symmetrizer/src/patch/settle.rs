@@ -81,8 +81,14 @@ impl Settling {
     /// surface, and most of the way is taken on those. Mirrors are judged by what the surface says in each step.
     fn of(class: Class) -> Self {
         match class {
-            Class::Mirror => Self { rounds: 12, steps: 1 },
-            Class::Proper | Class::Improper => Self { rounds: 5, steps: 4 },
+            Class::Mirror => Self {
+                rounds: 12,
+                steps: 1,
+            },
+            Class::Proper | Class::Improper => Self {
+                rounds: 5,
+                steps: 4,
+            },
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::shape::surface::Surface;
 /// The faces, sorted, that are turned over against the surface around them.
 ///
 /// Around each face, over the two rings of vertices next to it, one rotation R fits the edges
-/// before to those after best. The face is inverted when its normal after makes more than a right
+/// before to those after best, inner ones counted twice. The face is inverted when its normal after makes more than a right
 /// angle with R times its normal before. So a part that turns as a whole, even upside down, has no
 /// inverted faces; a fold has. Faces without area are never counted.
 pub fn inverted_faces(before: &Surface, after: &Surface) -> Vec<u32> {
@@ -25,14 +25,14 @@ pub fn inverted_faces(before: &Surface, after: &Surface) -> Vec<u32> {
         .collect()
 }
 
-/// For each vertex the sum of e e'^T over the edges at it, e before and e' after.
+/// For each vertex the sum of e e'^T over the sides of the faces at it, e before and e' after.
 fn edge_covariances(before: &Surface, after: &Surface) -> Vec<Matrix3> {
     let mut sums = vec![Matrix3::zeros(); before.positions.len()];
-    let edge = |s: &Surface, [u, v]: [u32; 2]| -> Vector {
+    let side = |s: &Surface, [u, v]: [u32; 2]| -> Vector {
         s.positions[v as usize] - s.positions[u as usize]
     };
-    for e in before.edges() {
-        let product = edge(before, e) * edge(after, e).transpose();
+    for e in sides(before) {
+        let product = side(before, e) * side(after, e).transpose();
         for v in e {
             sums[v as usize] += product;
         }
@@ -40,12 +40,18 @@ fn edge_covariances(before: &Surface, after: &Surface) -> Vec<Matrix3> {
     sums
 }
 
-/// Adds to each vertex's matrix those of its neighbours.
+/// Adds to each vertex's matrix, which counts twice, those at the other ends of sides.
 fn spread(surface: &Surface, own: &[Matrix3]) -> Vec<Matrix3> {
-    let mut sums = own.to_vec();
-    for [u, v] in surface.edges() {
+    let mut sums: Vec<Matrix3> = own.iter().map(|m| 2.0 * m).collect();
+    for [u, v] in sides(surface) {
         sums[u as usize] += own[v as usize];
         sums[v as usize] += own[u as usize];
     }
     sums
+}
+
+/// The sides of all faces: each inner edge twice.
+fn sides(surface: &Surface) -> impl Iterator<Item = [u32; 2]> {
+    let faces = surface.triangles.iter();
+    faces.flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
 }
