@@ -55,6 +55,8 @@ const LEADING: usize = 6;
 const STEPS: usize = 50;
 const NEARLY: f64 = 1e-2;
 const AT_REST: f64 = 1e-4;
+/// How much further than the kernel's radius votes are looked for once steps are shorter than that, in units of it.
+const SLACK: f64 = 0.12;
 /// Starts at the most, the densest: several times the modes that are looked at.
 const STARTS: usize = 1500;
 /// With fewer votes within the kernel's radius a place is no start: a mode of as many as a symmetry has is higher elsewhere.
@@ -136,9 +138,10 @@ impl Votes {
     /// near it.
     fn climb(&self, start: Phi, h: f64, rest: f64) -> Option<Cluster> {
         let mut mode = start;
+        let mut near = self.near(&mode, h);
         for _ in 0..STEPS {
             let (mut total, mut sum) = (0.0, Phi::zeros());
-            for (i, _) in self.within(&mode, h) {
+            for (i, _) in self.closer(&near, &mode, h) {
                 total += self.weights[i];
                 sum.axpy(self.weights[i], &self.phi[i], 1.0);
             }
@@ -148,17 +151,52 @@ impl Votes {
             let mean = sum / total;
             let moved = (mean - mode).norm();
             mode = mean;
+            if (mode - near.center).norm() + h > near.radius {
+                // Where steps are short the next ones ask for hardly any others.
+                let slack = if moved < SLACK * h { SLACK * h } else { 0.0 };
+                near = self.near(&mode, h + slack);
+            }
             if moved < rest * h {
                 break;
             }
         }
-        let mut votes: Vec<u32> = self.within(&mode, h).map(|(i, _)| i as u32).collect();
+        let mut height = 0.0;
+        let mut votes = Vec::new();
+        for (i, d2) in self.closer(&near, &mode, h) {
+            height += self.weights[i] * (1.0 - d2 / (h * h));
+            votes.push(i as u32);
+        }
         votes.sort_unstable();
         Some(Cluster {
-            height: self.density(&mode, h),
             mode,
+            height,
             votes,
         })
+    }
+
+    /// The votes that count within `radius` of `x`, and some more.
+    fn near(&self, x: &Phi, radius: f64) -> Near {
+        let y: [f64; LEADING] = (self.axes * x).into();
+        let all = self.index.around(&y, radius);
+        Near {
+            center: *x,
+            radius,
+            votes: all.filter(|&i| self.weights[i as usize] > 0.0).collect(),
+        }
+    }
+
+    /// Those of them within `h` of `x`, with their squared distances.
+    fn closer<'a>(
+        &'a self,
+        near: &'a Near,
+        x: &Phi,
+        h: f64,
+    ) -> impl Iterator<Item = (usize, f64)> + 'a {
+        let x = *x;
+        let votes = near.votes.iter().map(|&i| i as usize);
+        votes
+            .map(move |i| (i, (self.phi[i] - x).norm_squared()))
+            .filter(move |&(_, d2)| d2 < h * h)
     }
 
     /// Where to climb from, the densest first: of one vote per cell of side h/2 those that have some votes around them and that
@@ -214,6 +252,14 @@ impl Votes {
             .map(move |i| (i, (self.phi[i] - x).norm_squared()))
             .filter(move |&(_, d2)| d2 < h * h)
     }
+}
+
+/// Votes near a place.
+struct Near {
+    center: Phi,
+    /// None is left out that is closer than this.
+    radius: f64,
+    votes: Vec<u32>,
 }
 
 /// What is around a vote.
