@@ -22,7 +22,7 @@ const GAIN: f64 = 0.93;
 /// mean says little about the other.
 const STEP: f64 = 1.0;
 /// Much is left above this share of the mean asymmetry of the shape.
-const MUCH: f64 = 0.25;
+const MUCH: f64 = 0.15;
 /// A further bend is undone from this share of the least degrees on that the first must have: what is left of a shape by then is small.
 const LEAST: f64 = 0.5;
 
