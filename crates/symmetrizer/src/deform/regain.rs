@@ -9,10 +9,11 @@ use crate::error::Result;
 use crate::geom::{Matrix3, Point};
 use crate::shape::Surface;
 
-/// Positions of `now`, a deformed state of `rest` to which its vertices have come by these `motions`, with the form at rest where a vertex is in the `core`: edges
-/// there are those of `rest`, turned as the surface around has turned (harmonic rotations). What is `freed`
-/// besides makes room: it keeps the form that it has now, and moves (Poisson's equation for both, as in Yu et al.
-/// 2004). All else stays, as do loose parts that are freed as a whole: nothing holds them.
+/// Positions of `now`, a deformed state of `rest` to which its vertices have come by these `motions`, with the form at
+/// rest where a vertex is in the `core`: edges there are those of `rest`, turned as the surface around has turned
+/// (harmonic rotations). What is `freed` besides makes room: it keeps the form that it has now, and moves (Poisson's
+/// equation for both, as in Yu et al. 2004). All else stays, as do loose parts that are freed as a whole: nothing holds
+/// them.
 ///
 /// # Errors
 /// [`crate::Error::Numerical`].

@@ -68,6 +68,12 @@ const MOTION: [Round; 6] = [
 const WELL: f64 = 0.4;
 /// Share of the least area that a candidate must reach while it settles.
 const HOPEFUL: f64 = 0.8;
+/// The round after which a motion is refused that fills the tolerance to so many times what a symmetry does at the most.
+const PASSING: usize = 1;
+const PASSES: f64 = 1.25;
+/// Settled: contacts move by less than this from round to round, fraction of L.
+const SETTLED: f64 = 2e-5;
+
 /// How far a candidate settles.
 struct Settling {
     /// Rounds at the most.
@@ -92,12 +98,6 @@ impl Settling {
         }
     }
 }
-
-/// The round after which a motion is refused that fills the tolerance to so many times what a symmetry does at the most.
-const PASSING: usize = 1;
-const PASSES: f64 = 1.25;
-/// Settled: contacts move by less than this from round to round, fraction of L.
-const SETTLED: f64 = 2e-5;
 
 /// An isometry that has come to rest on the surface.
 #[derive(Debug, Clone, Copy)]

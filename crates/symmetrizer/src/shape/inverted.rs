@@ -8,8 +8,8 @@ use crate::shape::surface::Surface;
 /// The faces, sorted, that are turned over against the surface around them.
 ///
 /// Around each face, over the two rings of vertices next to it, one rotation R fits the edges
-/// before to those after best, inner ones counted twice. The face is inverted when its normal after makes more than a right
-/// angle with R times its normal before. So a part that turns as a whole, even upside down, has no
+/// before to those after best, inner ones counted twice. The face is inverted when its normal after
+/// makes more than a right angle with R times its normal before. So a part that turns as a whole, even upside down, has no
 /// inverted faces; a fold has. Faces without area are never counted.
 pub fn inverted_faces(before: &Surface, after: &Surface) -> Vec<u32> {
     let around = spread(before, &edge_covariances(before, after));
