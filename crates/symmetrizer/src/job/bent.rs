@@ -40,6 +40,35 @@ pub(super) struct Looked {
     pub done: Option<Optimized>,
 }
 
+/// What the land of a state stands on.
+struct Ground<'a> {
+    state: &'a Detected,
+    reach: Reach,
+    closest: ClosestPoint,
+}
+
+impl<'a> Ground<'a> {
+    fn of(state: &'a Detected) -> Result<Self> {
+        let samples = &state.detection.samples;
+        Ok(Self {
+            reach: match &state.wall {
+                Some(wall) => Reach::inside(wall, samples, REACH)?,
+                None => Reach::new(samples, REACH),
+            },
+            closest: ClosestPoint::new(&state.working.surface),
+            state,
+        })
+    }
+
+    /// What fields of the state grow over.
+    fn land<'b>(&'b self, settings: Settings<'b>) -> Land<'b> {
+        let (surface, samples) = (&self.state.working.surface, &self.state.detection.samples);
+        Land::new(surface, &self.closest, samples, &self.reach)
+            .with_stiffness(settings.stiffness)
+            .with_wall(settings.wall)
+    }
+}
+
 /// Looks for a bend in the state `before`, whose mean asymmetry is `asymmetry` (fraction of L), and undoes it
 /// where the parameters say so.
 pub(super) fn unbend(
@@ -63,16 +92,8 @@ pub(super) fn unbend(
     if params.when == When::Never || mirrors.sure.is_empty() && !plane {
         return Ok(nothing);
     }
-    let surface = &before.working.surface;
-    let samples = &before.detection.samples;
-    let reach = match &before.wall {
-        Some(wall) => Reach::inside(wall, samples, REACH)?,
-        None => Reach::new(samples, REACH),
-    };
-    let closest = ClosestPoint::new(surface);
-    let land = Land::new(surface, &closest, samples, &reach)
-        .with_stiffness(settings.stiffness)
-        .with_wall(settings.wall);
+    let ground = Ground::of(before)?;
+    let land = ground.land(settings);
     let found = ctx.stage("bend", |ctx| Bend::find(&land, &mirrors, ctx))?;
     let Some(bend) = found else {
         return Ok(nothing);
@@ -94,7 +115,7 @@ pub(super) fn unbend(
         report: Some(report),
         bent: Some(Bent {
             bend,
-            samples: samples.clone(),
+            samples: before.detection.samples.clone(),
             straight,
         }),
         done,
@@ -118,11 +139,8 @@ pub(super) fn unbend_part(
     if params.when == When::Never || !uncertain || bent.straight.is_some() {
         return Ok(None);
     }
-    let surface = &before.working.surface;
-    let samples = &before.detection.samples;
-    let reach = Reach::new(samples, REACH);
-    let closest = ClosestPoint::new(surface);
-    let land = Land::new(surface, &closest, samples, &reach).with_stiffness(settings.stiffness);
+    let ground = Ground::of(before)?;
+    let land = ground.land(settings);
     let region = bent.bend.trust.region(&land);
     if region.iter().sum::<f64>() < MOST * region.len() as f64 {
         return Ok(None);
@@ -156,11 +174,8 @@ pub(super) fn undone_again(
     let Some(bent) = &mut looked.bent else {
         return Ok(None);
     };
-    let surface = &before.working.surface;
-    let samples = &before.detection.samples;
-    let reach = Reach::new(samples, REACH);
-    let closest = ClosestPoint::new(surface);
-    let land = Land::new(surface, &closest, samples, &reach).with_stiffness(settings.stiffness);
+    let ground = Ground::of(before)?;
+    let land = ground.land(settings);
     let share = params.share;
     let undone = undone(before, asymmetry, &land, &bent.bend, share, settings, ctx)?;
     Ok(undone.map(|undone| {
