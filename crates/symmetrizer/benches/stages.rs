@@ -155,9 +155,10 @@ fn detection(c: &mut Criterion, b: &Bunny) {
         mirror_pairs(&b.found.samples, None, &b.detect.pair, &mut new())
     });
     stage(c, "cluster", || {
-        Votes::new(&b.found.clouds[0].pairs, &b.found.space).clusters(&b.detect.cluster)
+        Votes::new(&b.found.clouds[0].pairs, &b.found.space, 3).clusters(&b.detect.cluster)
     });
-    let clusters = Votes::new(&b.found.clouds[0].pairs, &b.found.space).clusters(&b.detect.cluster);
+    let clusters =
+        Votes::new(&b.found.clouds[0].pairs, &b.found.space, 3).clusters(&b.detect.cluster);
     let closest = ClosestPoint::new(&b.surface);
     let describer = Describer::new(&b.surface, 1.0);
     let ground = Ground {

@@ -15,7 +15,7 @@ use symmetrizer::shape::{ClosestPoint, Surface};
 
 /// The pairs that voted for the highest mode, as sampled: nothing has matched them to the surface.
 fn raw_couples(found: &Detection) -> Vec<Couple> {
-    let votes = Votes::new(&found.clouds[0].pairs, &found.space);
+    let votes = Votes::new(&found.clouds[0].pairs, &found.space, 3);
     let clusters = votes.clusters(&ClusterParams::default());
     let list = &found.samples.list;
     clusters[0]

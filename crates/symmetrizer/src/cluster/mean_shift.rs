@@ -45,6 +45,8 @@ pub struct Votes {
     /// Leading principal axes of phi: distances along them never exceed those in all twelve, so a
     /// range query in them finds a superset, exactly filtered after.
     axes: SMatrix<f64, LEADING, 12>,
+    /// A place is no start where another one within this share of the kernel's radius is denser.
+    beside: f64,
     index: Arc<PointIndex<LEADING>>,
 }
 
@@ -57,14 +59,17 @@ const NEARLY: f64 = 1e-2;
 const AT_REST: f64 = 1e-4;
 /// How much further than the kernel's radius votes are looked for once steps are shorter than that, in units of it.
 const SLACK: f64 = 0.12;
+/// The share of the kernel's ball in which there is one start at the most, where it is densest: of many dimensions a ball of half the
+/// radius holds next to nothing.
+const BESIDE: f64 = 0.125;
 /// Starts at the most, the densest: several times the modes that are looked at.
 const STARTS: usize = 1500;
 /// With fewer votes within the kernel's radius a place is no start: a mode of as many as a symmetry has is higher elsewhere.
 const SOME: usize = 3;
 
 impl Votes {
-    /// Embeds the pairs' transformations in `space`.
-    pub fn new(pairs: &[Pair], space: &TransformSpace) -> Self {
+    /// Embeds the pairs' transformations, which have so many degrees of `freedom`, in `space`.
+    pub fn new(pairs: &[Pair], space: &TransformSpace, freedom: u32) -> Self {
         let phi: Vec<Phi> = pairs.par_iter().map(|v| space.embed(&v.q_from_p)).collect();
         let weights = pairs.iter().map(|v| v.weight).collect();
         let axes: SMatrix<f64, LEADING, 12> = leading_axes(&phi);
@@ -74,6 +79,7 @@ impl Votes {
             phi,
             weights,
             axes,
+            beside: BESIDE.powf(1.0 / f64::from(freedom)).max(0.5),
         }
     }
 
@@ -200,7 +206,7 @@ impl Votes {
     }
 
     /// Where to climb from, the densest first: of one vote per cell of side h/2 those that have some votes around them and that
-    /// none of the others within h/2 exceeds in density. In fewer axes than the six of a motion a cell would hold several modes.
+    /// none of the others beside them exceeds in density. In fewer axes than the six of a motion a cell would hold several modes.
     fn starts(&self, h: f64) -> Vec<usize> {
         let mut cells = BTreeMap::new();
         let origin = self.axes * self.phi.iter().sum::<Phi>() / self.phi.len().max(1) as f64;
@@ -235,7 +241,7 @@ impl Votes {
         for (i, d2) in self.within(&self.phi[vote], h) {
             count += 1;
             crowd.density += self.weights[i] * (1.0 - d2 / (h * h));
-            if d2 < 0.25 * h * h {
+            if d2 < (self.beside * h).powi(2) {
                 crowd.next.push(i as u32);
             }
         }
@@ -267,7 +273,7 @@ struct Near {
 struct Crowd {
     /// The kernel density there.
     density: f64,
-    /// The votes within half the kernel's radius.
+    /// The votes beside it.
     next: Vec<u32>,
 }
 

@@ -44,7 +44,8 @@ pub fn again(
             continue;
         }
         let pairs = likes.guided(&asking, class, surroundings.space, &params.pair);
-        let cloud = Cloud::new(class, pairs, surroundings.space);
+        let within = (surroundings.space, surroundings.ground.samples.ambient);
+        let cloud = Cloud::new(class, pairs, within);
         let clusters = cloud.votes.clusters(&params.cluster);
         let found = motions(
             surroundings,

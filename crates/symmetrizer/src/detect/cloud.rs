@@ -1,6 +1,7 @@
 //! The votes of one class, and what has been worked out about them: a second look asks the same again.
 
 use crate::cluster::{Cluster, ClusterParams, Votes};
+use crate::geom::Ambient;
 use crate::pair::Pair;
 use crate::patch::{Candidate, Ground, PatchParams, Settled, settled};
 use crate::transform::{Class, Isometry, TransformSpace};
@@ -38,11 +39,15 @@ struct Listed {
 }
 
 impl Cloud {
-    /// Of `pairs`, none of them explained.
-    pub(super) fn new(class: Class, pairs: Vec<Pair>, space: &TransformSpace) -> Self {
+    /// Of `pairs` in the `ambient` space, none of them explained.
+    pub(super) fn new(
+        class: Class,
+        pairs: Vec<Pair>,
+        (space, ambient): (&TransformSpace, Ambient),
+    ) -> Self {
         Self {
             class,
-            votes: Votes::new(&pairs, space),
+            votes: Votes::new(&pairs, space, class.freedom(ambient)),
             pairs,
             rested: Vec::new(),
             listed: Vec::new(),
@@ -122,7 +127,7 @@ mod tests {
             })
             .collect();
         let kernel = ClusterParams::default();
-        let mut cloud = Cloud::new(Class::Mirror, pairs, &space);
+        let mut cloud = Cloud::new(Class::Mirror, pairs, (&space, Ambient::Space));
         let heights = |cloud: &mut Cloud| {
             let known = cloud.clusters(&kernel);
             let found = cloud.votes.clusters(&kernel);

@@ -97,7 +97,8 @@ fn rest(
         return Ok(None);
     }
     let pairs = mirror_pairs(ground.samples, Some(&left), &params.pair, ctx)?;
-    Ok(Some(Cloud::new(Class::Mirror, pairs, space)))
+    let within = (*space, ground.samples.ambient);
+    Ok(Some(Cloud::new(Class::Mirror, pairs, within)))
 }
 
 impl Found {

@@ -286,7 +286,7 @@ fn looked(
                 (Class::Mirror, None) => mirror_pairs(samples, None, &params.pair, ctx)?,
                 _ => likes.pairs(class, space, &params.pair, ctx)?,
             };
-            Ok(Cloud::new(class, pairs, space))
+            Ok(Cloud::new(class, pairs, (space, samples.ambient)))
         })?;
         let clusters = ctx.stage("cluster", |_| Ok(cloud.clusters(&params.cluster)))?;
         let found = ctx.stage("patch", |ctx| {

@@ -161,7 +161,10 @@ impl Chance {
         } = surroundings;
         let shuffle = |_| shuffled_motions(&cloud.pairs, cloud.class, ground.samples, rng);
         let shuffled: Vec<Vec<Pair>> = (0..SHUFFLES).map(shuffle).collect();
-        let votes = shuffled.par_iter().map(|pairs| Votes::new(pairs, space));
+        let freedom = cloud.class.freedom(ground.samples.ambient);
+        let votes = shuffled
+            .par_iter()
+            .map(|pairs| Votes::new(pairs, space, freedom));
         Self {
             shuffled: votes.collect(),
             h: params.cluster.bandwidth,

@@ -1,5 +1,7 @@
 //! The three clouds of transformation space: votes of different classes are never clustered together.
 
+use crate::geom::Ambient;
+
 /// What the votes of a cloud have in common.
 #[derive(
     Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
@@ -24,6 +26,16 @@ impl Class {
             Self::Mirror => "mirrors",
             Self::Proper => "rotations, translations, screws",
             Self::Improper => "glides, rotoreflections, inversions",
+        }
+    }
+
+    /// How many degrees of freedom its members have.
+    pub fn freedom(self, ambient: Ambient) -> u32 {
+        match (self, ambient) {
+            (Self::Mirror, Ambient::Plane) => 2,
+            (Self::Mirror, Ambient::Space) => 3,
+            (_, Ambient::Plane) => 3,
+            (_, Ambient::Space) => 6,
         }
     }
 
