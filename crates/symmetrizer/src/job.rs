@@ -3,6 +3,7 @@
 mod arranged;
 mod bent;
 mod detected;
+mod either;
 mod firm;
 mod follow;
 mod further;
@@ -190,23 +191,10 @@ fn made(
     };
     let Arranged {
         done,
-        mut bend,
-        mut bent,
-        mut merged,
+        bend,
+        bent,
+        part,
     } = arranged;
-    let mut part = false;
-    let mut done = guard::mended(&before, done, ctx)?;
-    if let Some(state) = merged.take_if(|_| guard::spoiled(&before, &done)) {
-        let again = guard::Again {
-            before: &state,
-            asymmetry: mean,
-            params,
-            settings,
-        };
-        let whole;
-        (done, whole) = again.part((&mut bend, &mut bent), ctx)?;
-        part = !whole;
-    }
     let faces = FaceSamples::of(&before);
     let input = AsymmetryReport::new(&measured, &before.working.normalization);
     let report = Report {
@@ -237,17 +225,6 @@ fn made(
             (None, false) => params.detect(),
         };
         job.conclude(done, mesh, &again, ctx)?;
-        if let Some(state) = merged.filter(|_| guard::worse(&job)) {
-            let again = guard::Again {
-                before: &state,
-                asymmetry: mean,
-                params,
-                settings,
-            };
-            let (done, whole) = again.part((&mut job.report.bend, &mut job.bend), ctx)?;
-            part = !whole;
-            job.conclude(done, mesh, &detect, ctx)?;
-        }
         guard::give_up_on_worse(&mut job, mesh, part, &detect, ctx)?;
         plane::give_up_on_worse(&mut job, ctx);
         guard::say_part(&job, part, ctx);
@@ -299,10 +276,10 @@ fn mirrored(
         None => optimize(surface, &before.detection, settings, ctx)?,
     };
     Ok(Arranged {
-        done,
+        done: guard::mended(before, done, ctx)?,
         bend: looked.report,
         bent: looked.bent,
-        merged: None,
+        part: false,
     })
 }
 

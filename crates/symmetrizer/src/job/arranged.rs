@@ -6,12 +6,14 @@ use crate::detect::{Detection, detect_anew};
 use crate::error::{Error, Result};
 use crate::field::trust::Verdict;
 use crate::geom::median;
+use crate::job::either::{Either, Made};
+use crate::job::guard::mended;
 use crate::job::{Bent, Detected, bent};
 use crate::optimize::orbit::{Goal, orbits};
 use crate::optimize::outcome::{mirrors, next_id};
 use crate::optimize::plan::goals;
 use crate::optimize::schedule::Settings;
-use crate::optimize::{Optimized, Outcome, optimize};
+use crate::optimize::{Optimized, Outcome};
 use crate::patch::Symmetry;
 use crate::report::BendReport;
 use crate::straighten::StraightenParams;
@@ -88,14 +90,14 @@ fn is_outside(details: &[Goal], held: &[bool]) -> bool {
 
 /// What came of a shape.
 pub(super) struct Arranged {
-    /// The work.
+    /// The work, what it tangled mended.
     pub done: Optimized,
     /// What was found of a bend, where one was looked for.
     pub bend: Option<BendReport>,
     /// What that is about.
     pub bent: Option<Bent>,
-    /// The state whose mirrors were merged, where they were.
-    pub merged: Option<Box<Detected>>,
+    /// Whether it is no more than a part of the shape that is symmetric.
+    pub part: bool,
 }
 
 /// Makes the symmetries of `found` exact; its asymmetry is that `mean` (fraction of L), or it is `exact`. The mirrors of weaker
@@ -127,25 +129,35 @@ pub(super) fn symmetrized(
     let contradicted = is_contradicted(&near, &details);
     let near = known(found, near);
     let state = state(found, near);
-    let looked = bent::unbend(&state, mean, params, settings, ctx)?;
+    let mut looked = bent::unbend(&state, mean, params, settings, ctx)?;
     let verdict = looked.report.as_ref().map(|bend| bend.verdict);
-    let merged = looked.done.is_none();
     // A mirror that drifts over a plate passes by the elements on it as a straight one does.
     let bend = looked.bent.as_ref().map(|bent| &bent.bend.trust.trusted);
     let denied = contradicted && bend.is_some_and(|trusted| is_outside(&details, trusted));
-    let done = match looked.done {
+    let made = match looked.done.take() {
         Some(_) if denied => return Ok(Arranged::plain(met(found, &all, settings, ctx)?)),
-        Some(done) => done,
+        Some(done) => Made {
+            done: mended(found, done, ctx)?,
+            part: false,
+        },
         None if denied || contradicted && verdict != Some(Verdict::Accept) => {
             return Ok(Arranged::plain(met(found, &all, settings, ctx)?));
         }
-        None => optimize(&state.working.surface, &state.detection, settings, ctx)?,
+        None => {
+            let shape = Either {
+                before: &state,
+                asymmetry: mean,
+                params,
+                settings,
+            };
+            shape.made(&mut looked, ctx)?
+        }
     };
     Ok(Arranged {
-        done,
+        done: made.done,
         bend: looked.report,
         bent: looked.bent,
-        merged: merged.then(|| Box::new(state)),
+        part: made.part,
     })
 }
 
@@ -156,7 +168,7 @@ impl Arranged {
             done,
             bend: None,
             bent: None,
-            merged: None,
+            part: false,
         }
     }
 }
@@ -210,9 +222,10 @@ fn met(
             Outcome::NoSymmetry,
         ));
     }
-    ctx.stage("orbits", |ctx| {
+    let done = ctx.stage("orbits", |ctx| {
         orbits(surface, &found.detection, goals, settings, ctx)
-    })
+    })?;
+    mended(found, done, ctx)
 }
 
 /// That the symmetries that were asked for by their ids are among those `found`.

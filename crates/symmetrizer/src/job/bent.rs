@@ -40,6 +40,18 @@ pub(super) struct Looked {
     pub done: Option<Optimized>,
 }
 
+impl Looked {
+    /// Says that the bend was left as it is.
+    pub fn stays(&mut self) {
+        if let Some(report) = &mut self.report {
+            (report.removed, report.kept) = (0.0, None);
+        }
+        if let Some(bent) = &mut self.bent {
+            bent.straight = None;
+        }
+    }
+}
+
 /// What the land of a state stands on.
 struct Ground<'a> {
     state: &'a Detected,
@@ -127,12 +139,12 @@ pub(super) fn unbend(
 pub(super) fn unbend_part(
     before: &Detected,
     asymmetry: f64,
-    looked: (&mut Option<BendReport>, &mut Option<Bent>),
+    looked: &mut Looked,
     params: &StraightenParams,
     settings: Settings<'_>,
     ctx: &mut Context<'_>,
 ) -> Result<Option<Optimized>> {
-    let (Some(report), Some(bent)) = looked else {
+    let (Some(report), Some(bent)) = (&mut looked.report, &mut looked.bent) else {
         return Ok(None);
     };
     let uncertain = report.verdict == Verdict::Uncertain && bent.bend.degrees >= params.min_bend;

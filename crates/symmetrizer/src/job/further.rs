@@ -26,8 +26,17 @@ const MUCH: f64 = 0.15;
 /// A further bend is undone from this share of the least degrees on that the first must have: what is left of a shape by then is small.
 const LEAST: f64 = 0.5;
 
-/// What was `done` to a part of the shape `before`, and then to what is bent of the result; and whether that is the whole. The energy is that
-/// beside `before`, whose mean asymmetry is given (fraction of L).
+/// What came of further bends.
+pub(super) struct Further {
+    pub done: Optimized,
+    /// Whether it is the whole that is symmetric.
+    pub whole: bool,
+    /// The mean asymmetry that is left, fraction of L.
+    pub mean: f64,
+}
+
+/// What was `done` to a part of the shape `before`, and then to what is bent of the result. The energy is that beside `before`, whose mean
+/// asymmetry is given (fraction of L).
 ///
 /// # Errors
 /// Those of detection, measuring and the deformation.
@@ -37,11 +46,17 @@ pub(super) fn further(
     params: &StraightenParams,
     settings: Settings<'_>,
     ctx: &mut Context<'_>,
-) -> Result<(Optimized, bool)> {
+) -> Result<Further> {
     let mut whole = false;
+    let mut state = State::of(before, &done, settings, ctx)?;
+    let mut least = state.mean;
     // What stays of the bend stands where it was found.
     if params.share < 1.0 {
-        return Ok((done, whole));
+        return Ok(Further {
+            done,
+            whole,
+            mean: least,
+        });
     }
     let smaller = StraightenParams {
         min_bend: LEAST * params.min_bend,
@@ -49,8 +64,6 @@ pub(super) fn further(
     };
     let body = ctx.stage("prepare", |_| prepared(&before.working.surface, settings))?;
     let most = settings.optimize.max_deformation.unwrap_or(f64::INFINITY);
-    let mut state = State::of(before, &done, settings, ctx)?;
-    let mut least = state.mean;
     let mut steps = done.steps.clone();
     let much = MUCH * state.mean.max(asymmetry);
     let mut turn = 0;
@@ -82,7 +95,11 @@ pub(super) fn further(
         }
         state = after;
     }
-    Ok((done, whole))
+    Ok(Further {
+        done,
+        whole,
+        mean: least,
+    })
 }
 
 /// One further bend of a `state` of the shape `before` undone, what came of it, and whether the whole bend is sure.

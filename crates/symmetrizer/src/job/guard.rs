@@ -3,14 +3,8 @@
 use crate::context::Context;
 use crate::detect::DetectParams;
 use crate::error::Result;
-use crate::job::bent::{Bent, unbend_part};
-use crate::job::further::further;
-use crate::job::otherwise::unbend_otherwise;
 use crate::job::{Detected, Symmetrized};
-use crate::optimize::schedule::Settings;
-use crate::optimize::{Optimized, Outcome, Step, mend, optimize};
-use crate::params::Params;
-use crate::report::BendReport;
+use crate::optimize::{Optimized, Outcome, Step, mend};
 use crate::shape::Mesh;
 
 /// Share of the area on which a tangled result had to be given back the form of the input, above which its mirror
@@ -58,47 +52,9 @@ pub(super) fn tangled(before: &Detected, done: &Optimized) -> bool {
     done.steps.iter().any(left)
 }
 
-/// A state, its mean asymmetry (fraction of L) and how to work on it.
-pub(super) struct Again<'a> {
-    pub before: &'a Detected,
-    pub asymmetry: f64,
-    pub params: &'a Params,
-    pub settings: Settings<'a>,
-}
-
-impl Again<'_> {
-    /// The work once more, with no more made symmetric than a symmetry holds for: that about a bent axis, `looked`
-    /// at before, where it holds for most of the shape, else the main mirror; and whether it is the whole in the end.
-    pub fn part(
-        self,
-        looked: (&mut Option<BendReport>, &mut Option<Bent>),
-        ctx: &mut Context<'_>,
-    ) -> Result<(Optimized, bool)> {
-        let (before, settings) = (self.before, self.settings);
-        let straighten = &self.params.straighten;
-        let (report, bent) = looked;
-        let state = (before, self.asymmetry);
-        let known = (&mut *report, &mut *bent);
-        let unbent = match unbend_part(before, self.asymmetry, known, straighten, settings, ctx)? {
-            Some(done) => Some(done),
-            None => unbend_otherwise(state, (report, bent), straighten, settings, ctx)?,
-        };
-        if let Some(done) = unbent {
-            let done = mended(before, done, ctx)?;
-            return further(state, done, straighten, settings, ctx);
-        }
-        let settings = Settings {
-            part: true,
-            ..settings
-        };
-        let done = optimize(&before.working.surface, &before.detection, settings, ctx)?;
-        Ok((mended(before, done, ctx)?, false))
-    }
-}
-
 /// Whether the result of a `job` on a mesh is less symmetric than the input. What keeps its pose is not measured by
 /// one mirror, and a drawing has a rule of its own.
-pub(super) fn worse(job: &Symmetrized) -> bool {
+fn worse(job: &Symmetrized) -> bool {
     let Some(result) = &job.report.result else {
         return false;
     };

@@ -4,46 +4,41 @@
 use crate::context::Context;
 use crate::error::Result;
 use crate::field::trust::Verdict;
-use crate::job::Detected;
-use crate::job::bent::Bent;
+use crate::job::bent::Looked;
+use crate::job::either::Either;
 use crate::job::state::{State, detected, unbent};
 use crate::optimize::Optimized;
-use crate::optimize::schedule::Settings;
-use crate::report::BendReport;
-use crate::straighten::{StraightenParams, When};
+use crate::straighten::When;
 
 /// Other samples of a surface at the most.
 pub(super) const OTHERS: u64 = 3;
 
-/// A bend of the shape `before`, with that mean asymmetry (fraction of L), which could not be had where it was `looked` for,
-/// all of it or a part undone as other samples of the same surface show it.
+/// A bend of a `shape` which could not be had where it was `looked` for, all of it or a part undone as other samples of the
+/// same surface show it; and what those show.
 ///
 /// # Errors
 /// Those of detection and the deformation.
 pub(super) fn unbend_otherwise(
-    (before, asymmetry): (&Detected, f64),
-    looked: (&mut Option<BendReport>, &mut Option<Bent>),
-    params: &StraightenParams,
-    settings: Settings<'_>,
+    shape: &Either<'_>,
+    looked: &Looked,
     ctx: &mut Context<'_>,
-) -> Result<Option<Optimized>> {
-    let (report, bent) = looked;
-    let in_doubt = report
-        .as_ref()
-        .is_some_and(|r| r.verdict != Verdict::Accept);
-    if !in_doubt || params.when == When::Never || before.wall.is_some() {
+) -> Result<Option<(Optimized, Looked)>> {
+    let report = looked.report.as_ref();
+    let in_doubt = report.is_some_and(|r| r.verdict != Verdict::Accept);
+    if !in_doubt || shape.params.when == When::Never {
         return Ok(None);
     }
+    let (before, settings) = (shape.before, shape.settings);
     for turn in 1..=OTHERS {
         let surface = before.working.surface.clone();
         let found = ctx.drawn_anew(turn, |ctx| detected(before, surface, settings, ctx))?;
         let state = State {
             found,
-            mean: asymmetry,
+            mean: shape.asymmetry,
         };
-        if let Some((done, looked)) = unbent(&state, params, settings, ctx)? {
-            (*report, *bent) = (looked.report, looked.bent);
-            return Ok(Some(done));
+        let unbent = unbent(&state, shape.params, settings, ctx)?;
+        if unbent.is_some() {
+            return Ok(unbent);
         }
     }
     Ok(None)

@@ -65,14 +65,10 @@ pub(super) fn unbent(
     let mut looked = unbend(&state.found, state.mean, params, settings, ctx)?;
     let done = match looked.done.take() {
         Some(done) => Some(done),
-        None => unbend_part(
-            &state.found,
-            state.mean,
-            (&mut looked.report, &mut looked.bent),
-            params,
-            settings,
-            ctx,
-        )?,
+        None => {
+            let (found, mean) = (&state.found, state.mean);
+            unbend_part(found, mean, &mut looked, params, settings, ctx)?
+        }
     };
     Ok(done.map(|done| (done, looked)))
 }
