@@ -62,8 +62,10 @@ impl Either<'_> {
         };
         let mut best: Option<(Way, Gone)> = None;
         for way in ways {
-            let enough = MUCH * self.asymmetry;
-            if best.as_ref().is_some_and(|(_, b)| b.left <= enough) {
+            if best
+                .as_ref()
+                .is_some_and(|(_, b)| self.is_enough(looked, b))
+            {
                 break;
             }
             let gone = match way {
@@ -84,13 +86,19 @@ impl Either<'_> {
         }
     }
 
+    /// Whether what is left of one way is not worth the other: it is little, or the other has next to nothing for it.
+    fn is_enough(&self, looked: &Looked, gone: &Gone) -> bool {
+        let uncertain = verdict(looked) == Some(Verdict::Uncertain);
+        gone.left <= MUCH * self.asymmetry || !uncertain
+    }
+
     /// Whether more of the shape is trusted to be symmetric about a bent axis than one mirror holds for: as a whole it will
     /// hardly be had under that.
     fn is_rather_bent(&self, looked: &Looked) -> bool {
         let areas = mirrors(&self.before.detection).map(|m| m.area_fraction);
         let held = areas.fold(0.0, f64::max);
-        let bend = looked.report.as_ref();
-        bend.is_some_and(|b| b.verdict == Verdict::Uncertain && b.trusted > held)
+        let trusted = looked.report.as_ref().map_or(0.0, |bend| bend.trusted);
+        verdict(looked) == Some(Verdict::Uncertain) && trusted > held
     }
 
     /// `None` where the result is tangled, or no more symmetric than the shape was.
@@ -162,4 +170,8 @@ impl Either<'_> {
             None => Ok(State::of(self.before, done, self.settings, ctx)?.mean),
         }
     }
+}
+
+fn verdict(looked: &Looked) -> Option<Verdict> {
+    looked.report.as_ref().map(|bend| bend.verdict)
 }
