@@ -373,6 +373,36 @@ fn a_further_bend_shows_once_another_is_undone() {
     }
 }
 
+/// A bend so strong that it is not sure: no mirror holds for half of the shape, and under one the whole is not to be had; what is trusted of
+/// the bend is undone, and then what shows after it.
+#[test]
+fn what_no_mirror_holds_for_may_be_had_about_the_bent_axis() {
+    let Some(path) = model("3d/cow.obj") else {
+        return;
+    };
+    // By 80 degrees within the middle three fifths.
+    let strong = deformed(&load(&path), 0, |p, length| {
+        let (half, radius) = (0.3 * length, 0.6 * length / 80_f64.to_radians());
+        let within = p[0].clamp(-half, half);
+        let (sin, cos) = (within / radius).sin_cos();
+        let (over, side) = (p[0] - within, radius - p[2]);
+        Point::new(
+            side * sin + over * cos,
+            p[1],
+            radius - side * cos + over * sin,
+        )
+    });
+    let job = symmetrize(&strong, &Params::default(), &mut Context::new(0)).expect("done");
+    let result = job.report.result.as_ref().expect("a result");
+    let before = job.report.input.shape.mean_asymmetry();
+    let bend = job.report.bend.as_ref().expect("a bend");
+    println!("{bend:?} {before} -> {:?}", result.asymmetry.mean);
+    assert_ne!(bend.verdict, Verdict::Refuse);
+    assert_eq!(bend.removed, bend.degrees);
+    assert!(result.asymmetry.mean < 0.1 * before);
+    assert_eq!(result.distortion.inverted_faces, 0);
+}
+
 #[test]
 fn partners_have_the_same_colours() {
     let mesh = Creature::default().mesh();
