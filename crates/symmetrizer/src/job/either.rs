@@ -138,6 +138,8 @@ impl Either<'_> {
         let gone = further((before, asymmetry), done, params, settings, ctx)?;
         let left = match tangled(before, &gone.done) {
             true => f64::INFINITY,
+            // What is to stay bent is not measured by one mirror.
+            false if params.share < 1.0 => 0.0,
             false => gone.mean,
         };
         let (done, part) = (gone.done, !gone.whole);
