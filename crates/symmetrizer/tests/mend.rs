@@ -3,6 +3,7 @@ mod common;
 
 use common::{placed, sphere, union, working};
 use symmetrizer::geom::{Point, Vector};
+use symmetrizer::optimize::ease::eased;
 use symmetrizer::optimize::mend::mend;
 use symmetrizer::shape::{Mesh, Surface};
 
@@ -107,4 +108,25 @@ fn a_loose_part_that_nothing_holds_stays() {
             .iter()
             .all(|p| p.coords.norm() < 2.0 * edge)
     );
+}
+
+/// A single vertex pushed through the surface next to it is too little for anything around it to change: its own neighbours carry it back.
+#[test]
+fn slivers_follow_what_lies_around() {
+    let rest = ball();
+    let mut after = moved(&rest, some_motion);
+    let place = after.positions[0];
+    let near = rest.next_to_vertices();
+    let far = near[near[0][0] as usize]
+        .iter()
+        .find(|v| !near[0].contains(v) && **v != 0);
+    let beyond = after.positions[*far.expect("a ball goes on") as usize];
+    let mut positions = after.positions.clone();
+    positions[0] = place + 1.3 * (beyond - place);
+    after = after.with_positions(positions);
+    let mut freed = vec![false; rest.positions.len()];
+    freed[0] = true;
+    let eased = eased(&rest, &after, &freed, &near);
+    assert!((eased.positions[0] - place).norm() < 0.2 * (beyond - place).norm());
+    assert_eq!(eased.positions[1..], after.positions[1..]);
 }

@@ -10,11 +10,14 @@ use std::collections::BinaryHeap;
 use crate::deform::carry::motions;
 use crate::deform::regain::regain;
 use crate::error::Result;
+use crate::optimize::ease::eased;
 use crate::optimize::tangles::Tangles;
 use crate::shape::Surface;
 use crate::shape::crossings::crossing_faces;
 use crate::shape::inverted::inverted_faces;
 
+/// Rings of vertices around the last tangled faces that are eased at the most.
+const RINGS: usize = 3;
 /// Attempts at the most.
 const ATTEMPTS: usize = 10;
 /// How far around a tangle the form is given back in the first attempt, along the surface: fraction of L, and mean
@@ -89,7 +92,7 @@ pub fn mend(before: &Surface, after: Surface) -> Result<Mended> {
             best = mended;
         }
     }
-    Ok(best)
+    Ok(mending.eased(before, best))
 }
 
 /// The share of the area at the vertices that are freed.
@@ -137,6 +140,37 @@ impl Mending {
         for (v, reach) in at.into_iter().zip(reach) {
             self.reach[v as usize] = reach;
         }
+    }
+
+    /// What is `mended` but for a few faces, these and what is next to them eased, where that leaves fewer.
+    fn eased(&mut self, before: &Surface, mut best: Mended) -> Mended {
+        let mut freed = vec![false; before.positions.len()];
+        for _ in 0..RINGS {
+            if best.left == 0 {
+                break;
+            }
+            let tangled = self.tangles.faces(before, &best.surface);
+            for &v in tangled.iter().flat_map(|&f| &before.triangles[f as usize]) {
+                freed[v as usize] = true;
+            }
+            freed = self.next_to(&freed);
+            let surface = eased(before, &best.surface, &freed, &self.neighbors);
+            let next = Mended {
+                left: self.tangles.faces(before, &surface).len(),
+                share: best.share + share(before, &freed),
+                surface,
+            };
+            if next.cost() < best.cost() {
+                best = next;
+            }
+        }
+        best
+    }
+
+    /// These vertices and those next to them.
+    fn next_to(&self, inside: &[bool]) -> Vec<bool> {
+        let near = |v: usize| self.neighbors[v].iter().any(|&n| inside[n as usize]);
+        (0..inside.len()).map(|v| inside[v] || near(v)).collect()
     }
 
     /// The vertices within so many times the reach of a tangle, along the edges at rest.

@@ -3,6 +3,7 @@
 mod aim;
 mod contact;
 pub mod contract;
+pub mod ease;
 pub mod finish;
 pub mod glide;
 pub mod mend;
