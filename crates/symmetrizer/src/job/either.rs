@@ -15,7 +15,7 @@ use crate::optimize::schedule::Settings;
 use crate::optimize::{Optimized, Step, optimize};
 use crate::straighten::StraightenParams;
 
-/// Where one way leaves more than this share of the mean asymmetry the other one is gone, too.
+/// Where one way leaves more than this share of the mean asymmetry the other one is tried, too.
 const MUCH: f64 = 0.3;
 
 /// The shape with the mirrors that are to become one, and how to work on it.
@@ -36,14 +36,14 @@ pub(super) struct Made {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Way {
-    /// Under the mirror that holds for most of it.
+    /// Under the mirror that holds for most of it (section 4.2: contract, merge).
     Straight,
     /// About its bent axis.
     Bent,
 }
 
-/// A way that was gone.
-struct Gone {
+/// What came of one way.
+struct Tried {
     made: Made,
     /// The mean asymmetry that is left, fraction of L.
     left: f64,
@@ -60,7 +60,7 @@ impl Either<'_> {
             true => [Way::Bent, Way::Straight],
             false => [Way::Straight, Way::Bent],
         };
-        let mut best: Option<(Way, Gone)> = None;
+        let mut best: Option<(Way, Tried)> = None;
         for way in ways {
             if best
                 .as_ref()
@@ -68,28 +68,28 @@ impl Either<'_> {
             {
                 break;
             }
-            let gone = match way {
+            let tried = match way {
                 Way::Straight => self.straight(ctx)?,
                 Way::Bent => self.bent(looked, ctx)?,
             };
-            let better = |g: &Gone| best.as_ref().is_none_or(|(_, b)| g.left < b.left);
-            if let Some(gone) = gone.filter(better) {
-                best = Some((way, gone));
+            let better = |g: &Tried| best.as_ref().is_none_or(|(_, b)| g.left < b.left);
+            if let Some(tried) = tried.filter(better) {
+                best = Some((way, tried));
             }
         }
         if best.as_ref().is_none_or(|(way, _)| *way != Way::Bent) {
             looked.stays();
         }
         match best {
-            Some((_, gone)) => Ok(gone.made),
+            Some((_, tried)) => Ok(tried.made),
             None => self.part(ctx),
         }
     }
 
     /// Whether what is left of one way is not worth the other: it is little, or the other has next to nothing for it.
-    fn is_enough(&self, looked: &Looked, gone: &Gone) -> bool {
+    fn is_enough(&self, looked: &Looked, tried: &Tried) -> bool {
         let uncertain = verdict(looked) == Some(Verdict::Uncertain);
-        gone.left <= MUCH * self.asymmetry || !uncertain
+        tried.left <= MUCH * self.asymmetry || !uncertain
     }
 
     /// Whether more of the shape is trusted to be symmetric about a bent axis than one mirror holds for: as a whole it will
@@ -102,7 +102,7 @@ impl Either<'_> {
     }
 
     /// `None` where the result is tangled, or no more symmetric than the shape was.
-    fn straight(&self, ctx: &mut Context<'_>) -> Result<Option<Gone>> {
+    fn straight(&self, ctx: &mut Context<'_>) -> Result<Option<Tried>> {
         let Detected {
             working, detection, ..
         } = self.before;
@@ -113,11 +113,11 @@ impl Either<'_> {
         }
         let left = self.left(&done, ctx)?;
         let made = Made { done, part: false };
-        Ok((left < self.asymmetry).then_some(Gone { made, left }))
+        Ok((left < self.asymmetry).then_some(Tried { made, left }))
     }
 
     /// `None` where nothing is undone.
-    fn bent(&self, looked: &mut Looked, ctx: &mut Context<'_>) -> Result<Option<Gone>> {
+    fn bent(&self, looked: &mut Looked, ctx: &mut Context<'_>) -> Result<Option<Tried>> {
         let Self {
             before,
             asymmetry,
@@ -135,16 +135,21 @@ impl Either<'_> {
             },
         };
         let done = mended(before, done, ctx)?;
-        let gone = further((before, asymmetry), done, params, settings, ctx)?;
-        let left = match tangled(before, &gone.done) {
-            true => f64::INFINITY,
-            // What is to stay bent is not measured by one mirror.
-            false if params.share < 1.0 => 0.0,
-            false => gone.mean,
+        // What stays of a bend stands where it was found, and is not measured by one mirror.
+        let (done, whole, mean) = match params.share < 1.0 {
+            true => (done, false, 0.0),
+            false => {
+                let further = further((before, asymmetry), done, params, settings, ctx)?;
+                (further.done, further.whole, further.mean)
+            }
         };
-        let (done, part) = (gone.done, !gone.whole);
+        let left = match tangled(before, &done) {
+            true => f64::INFINITY,
+            false => mean,
+        };
+        let part = !whole;
         let made = Made { done, part };
-        Ok(Some(Gone { made, left }))
+        Ok(Some(Tried { made, left }))
     }
 
     /// What the main mirror holds for.

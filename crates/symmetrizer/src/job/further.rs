@@ -35,7 +35,7 @@ pub(super) struct Further {
     pub mean: f64,
 }
 
-/// What was `done` to a part of the shape `before`, and then to what is bent of the result. The energy is that beside `before`, whose mean
+/// What was `done` to a part of the shape `before`, all of whose bend was to go, and then to what is bent of the result. The energy is that beside `before`, whose mean
 /// asymmetry is given (fraction of L).
 ///
 /// # Errors
@@ -50,14 +50,6 @@ pub(super) fn further(
     let mut whole = false;
     let mut state = State::of(before, &done, settings, ctx)?;
     let mut least = state.mean;
-    // What stays of the bend stands where it was found.
-    if params.share < 1.0 {
-        return Ok(Further {
-            done,
-            whole,
-            mean: least,
-        });
-    }
     let smaller = StraightenParams {
         min_bend: LEAST * params.min_bend,
         ..params.clone()

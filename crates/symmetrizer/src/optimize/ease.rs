@@ -8,10 +8,13 @@ use crate::shape::Surface;
 const ROUNDS: usize = 3;
 const STEPS: usize = 10;
 
-/// `now`, a deformed state of `rest`, with those vertices that are `freed` where the motions of their `neighbors` carry them: each
-/// neighbour says where it lies from itself, and the mean of that counts. All others stay.
+/// `now`, a deformed state of `rest`, with those vertices that are `freed` where the motions of their `neighbors` carry them; all others
+/// stay. The local and the global step of Sorkine and Alexa (2007) with all weights 1, the latter by Jacobi's method and with the rotation
+/// of the other end alone: that of a vertex on a turned face says nothing.
 pub fn eased(rest: &Surface, now: &Surface, freed: &[bool], neighbors: &[Vec<u32>]) -> Surface {
-    let free: Vec<usize> = (0..freed.len()).filter(|&v| freed[v]).collect();
+    let free: Vec<usize> = (0..freed.len())
+        .filter(|&v| freed[v] && !neighbors[v].is_empty())
+        .collect();
     let mut positions = now.positions.clone();
     for _ in 0..ROUNDS {
         let motions = motions(rest, &now.with_positions(positions.clone()));
