@@ -4,6 +4,7 @@ mod common;
 
 use common::{data, load, placed};
 use symmetrizer::geom::{Matrix3, Point, Vector};
+use symmetrizer::job::pictures::before_after;
 use symmetrizer::optimize::{Met, Outcome, Step};
 use symmetrizer::report::ExactReport;
 use symmetrizer::shape::working::Working;
@@ -227,6 +228,20 @@ fn exact_shapes_are_not_touched() {
         assert_eq!(done.shape.positions, mesh.positions, "{name}");
         assert_eq!(done.outcome, Outcome::Converged, "{name}");
     }
+}
+
+/// Nothing is found by votes then, and the page is without the plots of them.
+#[test]
+fn slides_alone_have_a_picture() {
+    let Some(path) = data("truth/vase_continuous.ply") else {
+        return;
+    };
+    let mut params = Params::default();
+    params.detect.kinds = vec![symmetrizer::detect::Want::Continuous];
+    let done = run(&load(&path), &params);
+    assert!(done.after.is_some());
+    let page = before_after(&done, "vase").expect("a page");
+    assert!(page.height() > 0);
 }
 
 /// A mirror of the plate that drifts by some degrees passes by the elements on it: no bend is undone for it.

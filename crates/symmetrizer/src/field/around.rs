@@ -17,6 +17,8 @@ const NORMALS: f64 = 0.5;
 const NEAR: f64 = 0.03;
 /// Share of the ring within which two pairings begin at the same place.
 const SAME: f64 = 0.06;
+/// A mirror carries a ring as a whole where it does this share of its samples.
+const CARRIED: f64 = 0.8;
 
 /// The best pairing of an outline with itself.
 pub struct Around {
@@ -29,13 +31,7 @@ pub struct Around {
 impl Around {
     /// Of the longest ring of `wall`.
     pub fn of(wall: &Wall, samples: &Samples) -> Self {
-        let mut rings = vec![Vec::new(); wall.rings.len()];
-        for (k, s) in samples.list.iter().enumerate() {
-            rings[wall.along(&s.at).0].push(k);
-        }
-        // The first of several.
-        let longest = rings.into_iter().rev().max_by_key(Vec::len);
-        let ring = longest.unwrap_or_default();
+        let ring = longest(wall, samples);
         let mut partners = vec![None; samples.list.len()];
         if ring.len() < 3 {
             return Self {
@@ -62,6 +58,49 @@ impl Around {
             rival: matching.rival(&pairs),
         }
     }
+}
+
+/// Whether the longest ring of `wall` has most of its `partners` on other rings: one of two wings, say. Then it is not to be
+/// paired with itself, however well it could be.
+pub fn is_one_of_two(wall: &Wall, samples: &Samples, partners: &[Option<Partner>]) -> bool {
+    let ring = longest(wall, samples);
+    let on_it = |q: &&Partner| ring.binary_search(&(q.sample as usize)).is_ok();
+    let paired = || ring.iter().filter_map(|&s| partners[s].as_ref());
+    2 * paired().filter(on_it).count() < paired().count()
+}
+
+/// Those of `partners` that one mirror gives to rings which it carries onto the outline as a whole: how these stand to each other is
+/// not to be told by what grows from one to the next, which begins with any of them.
+pub fn carried(
+    wall: &Wall,
+    samples: &Samples,
+    partners: &[Option<Partner>],
+) -> Vec<Option<Partner>> {
+    let mut kept = vec![None; partners.len()];
+    for ring in rings(wall, samples) {
+        let paired = ring.iter().filter(|&&s| partners[s].is_some()).count();
+        if paired as f64 >= CARRIED * ring.len() as f64 {
+            ring.iter().for_each(|&s| kept[s] = partners[s]);
+        }
+    }
+    kept
+}
+
+/// The samples of the longest ring, increasing.
+fn longest(wall: &Wall, samples: &Samples) -> Vec<usize> {
+    let rings = rings(wall, samples);
+    // The first of several.
+    let longest = rings.into_iter().rev().max_by_key(Vec::len);
+    longest.unwrap_or_default()
+}
+
+/// The samples of each ring, increasing.
+fn rings(wall: &Wall, samples: &Samples) -> Vec<Vec<usize>> {
+    let mut rings = vec![Vec::new(); wall.rings.len()];
+    for (k, s) in samples.list.iter().enumerate() {
+        rings[wall.along(&s.at).0].push(k);
+    }
+    rings
 }
 
 /// How a stretch became as long as it is.

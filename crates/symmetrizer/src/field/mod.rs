@@ -72,16 +72,23 @@ pub fn candidates(
         Some(_) => field.cover() * trust::likeness(land, field),
         None => trust::Trust::of(land, field).score(),
     };
-    let around = land.wall.map(|wall| {
+    let images = images(land, mirrors);
+    let is_one_of_two = |wall| around::is_one_of_two(wall, land.samples, &images);
+    let main = mirrors.sure.first();
+    let main = main.filter(|_| land.wall.is_some_and(is_one_of_two));
+    let around = land.wall.filter(|_| main.is_none()).map(|wall| {
         let around = around::Around::of(wall, land.samples);
-        grow::fill(land, around.partners, cancel)
+        let others = around::carried(wall, land.samples, &images);
+        let pairs = around.partners.into_iter().zip(others);
+        let pairs = pairs.map(|(own, other)| own.or(other)).collect();
+        grow::fill(land, pairs, cancel)
     });
     let around = around.map(|filled| (worth(&filled), filled));
     if let Some((_, filled)) = around.as_ref().filter(|(worth, _)| *worth >= ENOUGH) {
         ctx.check()?;
         return Ok(vec![filled.clone()]);
     }
-    let choices = mirrors.choices();
+    let choices = main.map_or_else(|| mirrors.choices(), |main| vec![vec![*main]]);
     let claims = seeds::CLAIMS.iter();
     let starts: Vec<_> = claims
         .flat_map(|&claim| choices.iter().map(move |c| seeds::seeds(land, c, claim)))
@@ -101,6 +108,15 @@ pub fn candidates(
         }
     }
     Ok(fields)
+}
+
+/// In the plane, the partners of samples under the highest of the `mirrors`.
+fn images(land: &grow::Land<'_>, mirrors: &Mirrors) -> Vec<Option<Partner>> {
+    let [.., widest] = seeds::CLAIMS;
+    match mirrors.sure.first().filter(|_| land.wall.is_some()) {
+        Some(main) => seeds::seeds(land, &[*main], widest),
+        None => vec![None; land.samples.list.len()],
+    }
 }
 
 /// Partners nearer than this are one, fraction of L, and fields that are one differ in less than this share of theirs.

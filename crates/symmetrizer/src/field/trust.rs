@@ -9,12 +9,13 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::field::around::Around;
+use crate::field::around::{Around, is_one_of_two};
 use crate::field::grow::Land;
 use crate::field::pieces::pieces;
 use crate::field::{Partner, SymmetryField};
 use crate::geom::median;
 use crate::sample::Sample;
+use crate::shape::wall::Wall;
 use crate::transform::Ambient;
 
 /// Distances along the surface over which stretch is measured, fractions of L.
@@ -74,7 +75,7 @@ pub struct Trust {
     /// Share of the samples that have no partner which fits, however they settle.
     pub unfit: f64,
     /// In the plane, how much the outline looks like its mirror image from other places, too: 0 not at all, 1 as
-    /// much.
+    /// much. None where its longest ring has its partners on others.
     pub rival: Option<f64>,
 }
 
@@ -106,7 +107,7 @@ impl Trust {
             gap: gap(&gaps, relief),
             relief,
             trusted,
-            rival: land.wall.map(|wall| Around::of(wall, land.samples).rival),
+            rival: rival(land, field),
             unfit: mean(
                 away.iter()
                     .map(|d| f64::from(u8::from(d.is_none_or(|d| d > UNFIT)))),
@@ -164,6 +165,14 @@ impl Trust {
             () => Verdict::Uncertain,
         }
     }
+}
+
+/// How much an outline looks like its mirror image from other places than those of `field`; `None` of a surface, and where the longest
+/// ring has its partners on others.
+fn rival(land: &Land<'_>, field: &SymmetryField) -> Option<f64> {
+    let paired = |wall: &&Wall| !is_one_of_two(wall, land.samples, &field.partners);
+    let wall = land.wall.filter(paired)?;
+    Some(Around::of(wall, land.samples).rival)
 }
 
 /// [`Trust::likeness`] of a `field`, without the rest.

@@ -63,10 +63,11 @@ fn states(job: &Symmetrized, title: &str) -> Canvas {
         return views(before, title);
     };
     let bandwidth = job.report.head.params.cluster.bandwidth;
-    let cloud = told(job);
-    let projection = Projection::new(before.detection.clouds[cloud].votes.points());
-    let votes = [before, after].map(|state| Votes::new(state, cloud, before, &projection));
-    let axes = common_axes(&votes, bandwidth);
+    let votes = told(job).map(|cloud| {
+        let projection = Projection::new(before.detection.clouds[cloud].votes.points());
+        [before, after].map(|state| Votes::new(state, cloud, before, &projection))
+    });
+    let axes = votes.as_ref().map(|v| common_axes(v, bandwidth));
     let colors = [(before, job.planes[0]), (after, job.planes[1])]
         .map(|(state, plane)| colored(job, state, &plane));
     let planes = [before, after].map(colored_planes);
@@ -75,7 +76,7 @@ fn states(job: &Symmetrized, title: &str) -> Canvas {
         positions: &surfaces[k].positions,
         scalar: &colors[k],
         planes: &planes[k],
-        density: Some(votes[k].plot(bandwidth, Some(axes), "")),
+        density: votes.as_ref().map(|v| v[k].plot(bandwidth, axes, "")),
     };
     let page = ReportPicture {
         title,
@@ -92,8 +93,9 @@ fn states(job: &Symmetrized, title: &str) -> Canvas {
     page.canvas()
 }
 
-/// The cloud that tells most of what was done: that of the first goal's symmetries, else the first, that of mirrors.
-fn told(job: &Symmetrized) -> usize {
+/// The cloud that tells most of what was done: that of the first goal's symmetries, else the first, that of mirrors. None where
+/// nothing was looked for by votes.
+fn told(job: &Symmetrized) -> Option<usize> {
     let detection = &job.before.detection;
     let mut ids = job.goals.iter().flat_map(|g| &g.symmetries);
     let class = ids.find_map(|id| {
@@ -102,7 +104,8 @@ fn told(job: &Symmetrized) -> usize {
     });
     let at = class.and_then(|class| detection.clouds.iter().position(|c| c.class == class));
     let after = job.after.as_ref().map_or(0, |a| a.detection.clouds.len());
-    at.filter(|&k| k < after).unwrap_or(0)
+    let first = (after > 0 && !detection.clouds.is_empty()).then_some(0);
+    at.filter(|&k| k < after).or(first)
 }
 
 /// What is to be seen on each vertex of a state: how far it is from its mirror image, or from the mean of its copies,

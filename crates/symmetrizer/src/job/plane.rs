@@ -161,7 +161,7 @@ fn leave(job: &mut Symmetrized, shape: Mesh) {
 fn asked_for(job: &Symmetrized) -> bool {
     let params = &job.report.head.params;
     let orbits = |step: &Step| matches!(step, Step::Orbits { .. });
-    params.straighten.when != When::Accepted
+    params.straighten.when == When::Uncertain
         || params.straighten.share < 1.0
         || params.optimize.max_deformation.is_some()
         || params.optimize.final_steps == 0

@@ -5,6 +5,7 @@ use symmetrizer::deform::Stiffness;
 use symmetrizer::drawing::{Format, Reading, decode};
 use symmetrizer::field::trust::Verdict;
 use symmetrizer::geom::Point;
+use symmetrizer::straighten::When;
 use symmetrizer::{Context, Params, symmetrize_drawing, symmetrize_drawing_with};
 
 #[test]
@@ -34,6 +35,47 @@ fn bent_drawings_come_out_straight_and_symmetric() {
         assert_eq!(crossings(&done.drawing), 0, "{name}");
         assert!((result.distortion.area_ratio - 1.0).abs() < 0.03, "{name}");
         assert!(result.distortion.inverted_faces <= 4, "{name}");
+    }
+}
+
+/// Each wing of the butterfly is symmetric by itself, and more so than it is like the other; the antennae lean to one side.
+#[test]
+fn wings_are_paired_as_one_line_says() {
+    let Some(drawing) = drawing("2d/butterfly_gi.svg") else {
+        return;
+    };
+    let done = symmetrized(&drawing);
+    let (bend, result) = (&done.job.report.bend, &done.job.report.result);
+    let bend = bend.as_ref().expect("the antennae's");
+    assert_eq!(bend.verdict, Verdict::Accept);
+    assert!(bend.degrees < 45.0, "{}", bend.degrees);
+    let result = result.as_ref().expect("a result");
+    assert!(result.asymmetry.mean < 0.05, "{}", result.asymmetry.mean);
+    assert_eq!(crossings(&done.drawing), 0);
+    assert!(result.distortion.rms < 2.0, "{}", result.distortion.rms);
+}
+
+/// Under the line of its wings alone the antennae would be torn apart.
+#[test]
+fn a_drawing_that_would_come_out_worse_is_left() {
+    let Some(drawing) = drawing("2d/butterfly_gi.svg") else {
+        return;
+    };
+    let mut params = Params::default();
+    params.straighten.when = When::Never;
+    let done = symmetrize_drawing(&drawing, &params, &mut Context::new(0)).expect("a run");
+    if let Some(result) = &done.job.report.result {
+        let was = done.job.report.input.shape.mean_asymmetry();
+        assert!(result.asymmetry.mean < 0.6 * was);
+    } else {
+        assert_eq!(done.drawing.outline(), drawing.outline());
+        let warned = done
+            .job
+            .report
+            .warnings
+            .iter()
+            .any(|w| w.0.contains("left as it is"));
+        assert!(warned, "{:?}", done.job.report.warnings);
     }
 }
 

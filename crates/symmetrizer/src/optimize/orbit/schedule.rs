@@ -209,13 +209,20 @@ fn shared(a: &Goal, b: &Goal) -> f64 {
     a.intersection(&b).count() as f64 / a.len().min(b.len()).max(1) as f64
 }
 
+/// The goals that are exact now: not those that were let be because they find few of their copies, nor those that were met and were
+/// spoiled by others.
+fn exact(before: &Fitted, drawn: &Drawn) -> Vec<Goal> {
+    let holds = |k: &usize| before.held[*k] >= HELD;
+    let spoiled = |k: usize| drawn.rms[k] > SPOILED * before.rms[k] && drawn.rms[k] > EXACT;
+    let kept = |k: &usize| !(drawn.goals[*k].is_met && spoiled(*k));
+    let all = (0..drawn.goals.len()).filter(holds).filter(kept);
+    all.map(|k| drawn.goals[k].clone()).collect()
+}
+
 impl Made {
     fn finished(self, surface: &Surface, detection: &Detection, left: Vec<Met>) -> Optimized {
         let drawn = self.drawn;
-        let worse = |k: usize| drawn.rms[k] > SPOILED * self.before.rms[k] && drawn.rms[k] > EXACT;
-        let all = 0..drawn.goals.len();
-        let exact = all.filter(|&k| !(drawn.goals[k].is_met && worse(k)));
-        let exact: Vec<Goal> = exact.map(|k| drawn.goals[k].clone()).collect();
+        let exact = exact(&self.before, &drawn);
         let met = drawn.goals.iter().enumerate().map(|(k, goal)| {
             let (residual, held) = ([self.before.rms[k], drawn.rms[k]], self.before.held[k]);
             match held < HELD {
@@ -239,5 +246,45 @@ impl Made {
             goals: exact,
             ..Optimized::unmoved(surface, detection, self.outcome)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::optimize::orbit::goal::Orbit;
+    use crate::transform::Ambient;
+
+    /// Of three goals that are met the first finds few of its copies, and the second was spoiled.
+    #[test]
+    fn what_was_let_be_is_not_called_exact() {
+        let goals: Vec<Goal> = ["scarce", "spoiled", "kept"]
+            .map(|name| Goal {
+                name: name.into(),
+                symmetries: Vec::new(),
+                orbit: Orbit::Group(Vec::new()),
+                places: Vec::new(),
+                area_fraction: 0.5,
+                reach: 0.01,
+                ambient: Ambient::Space,
+                is_met: true,
+            })
+            .into();
+        let before = Fitted {
+            rms: vec![2e-3, 1e-4, 1e-4],
+            halves: vec![0.0; 3],
+            held: vec![0.4, 0.9, 0.9],
+            predicted: 0.0,
+            goals: goals.clone(),
+        };
+        let drawn = Drawn {
+            positions: Vec::new(),
+            rounds: 1,
+            rms: vec![2e-3, 4e-4, 1e-4],
+            limited: false,
+            goals,
+        };
+        let names: Vec<String> = exact(&before, &drawn).into_iter().map(|g| g.name).collect();
+        assert_eq!(names, ["kept"]);
     }
 }
