@@ -104,6 +104,10 @@ fn what_cannot_be_read_exits_with_2() {
     desk.write("cut.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n");
     refused(desk.symmetrize(&["validate", "cut.off"]), "the file ends");
     refused(desk.symmetrize(&["validate", "none.off"]), "none.off");
+    refused(
+        desk.symmetrize(&["validate", "leaf.svg"]),
+        "leaf.svg is a drawing, and validate looks at meshes",
+    );
 }
 
 #[test]

@@ -4,14 +4,14 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use symmetrizer::Result;
 use symmetrizer::report::ValidateReport;
 use symmetrizer::shape::Findings;
 use symmetrizer::shape::validate::{FIRST, Finding, Place, Severity, Size};
+use symmetrizer::{Error, Result};
 
 use crate::Answer;
 use crate::files::{ReportFile, check_distinct, commit};
-use crate::input::{self, Input};
+use crate::input::{self, Input, is_drawing};
 use crate::options::Desk;
 use crate::summary::{grouped, short};
 
@@ -36,6 +36,15 @@ pub struct ValidateArgs {
 
 /// The verb.
 pub fn validate(args: &ValidateArgs, desk: &Desk) -> Result<Answer> {
+    if let Some(path) = args.input.path().filter(|path| is_drawing(path)) {
+        return Err(Error::input(
+            format!(
+                "{} is a drawing, and validate looks at meshes",
+                path.display()
+            ),
+            "detect and run say what they leave out as they read it",
+        ));
+    }
     let path = args.report.as_deref();
     check_distinct(args.input.path(), &[], path.as_slice())?;
     let file = path.map(ReportFile::reserve).transpose()?;
