@@ -4,7 +4,7 @@
 use crate::context::Context;
 use crate::detect::{Detection, detect_anew};
 use crate::error::{Error, Result};
-use crate::field::trust::Verdict;
+use crate::field::trust::{Trust, Verdict};
 use crate::geom::median;
 use crate::job::either::{Either, Made};
 use crate::job::guard::mended;
@@ -129,13 +129,15 @@ pub(super) fn symmetrized(
     let contradicted = is_contradicted(&near, &details);
     let near = known(found, near);
     let state = state(found, near);
-    let mut looked = bent::unbend(&state, mean, params, settings, ctx)?;
-    let verdict = looked.report.as_ref().map(|bend| bend.verdict);
     // A mirror that drifts over a plate passes by the elements on it as a straight one does.
-    let bend = looked.bent.as_ref().map(|bent| &bent.bend.trust.trusted);
-    let denied = contradicted && bend.is_some_and(|trusted| is_outside(&details, trusted));
+    let denies = |trust: &Trust| contradicted && is_outside(&details, &trust.trusted);
+    let mut looked = bent::unbend_unless(&denies, &state, mean, params, settings, ctx)?;
+    let verdict = looked.report.as_ref().map(|bend| bend.verdict);
+    let denied = looked
+        .bent
+        .as_ref()
+        .is_some_and(|bent| denies(&bent.bend.trust));
     let made = match looked.done.take() {
-        Some(_) if denied => return Ok(Arranged::plain(met(found, &all, settings, ctx)?)),
         Some(done) => Made {
             done: mended(found, done, ctx)?,
             part: false,

@@ -4,7 +4,7 @@
 use crate::context::Context;
 use crate::error::Result;
 use crate::field::grow::Land;
-use crate::field::trust::Verdict;
+use crate::field::trust::{Trust, Verdict};
 use crate::field::{Mirrors, Reach};
 use crate::job::{Detected, plane};
 use crate::optimize::schedule::{Settings, prepared};
@@ -90,6 +90,18 @@ pub(super) fn unbend(
     settings: Settings<'_>,
     ctx: &mut Context<'_>,
 ) -> Result<Looked> {
+    unbend_unless(&|_| false, before, asymmetry, params, settings, ctx)
+}
+
+/// [`unbend`], which leaves a bend that is `denied` by what is trusted of it.
+pub(super) fn unbend_unless(
+    denied: &dyn Fn(&Trust) -> bool,
+    before: &Detected,
+    asymmetry: f64,
+    params: &StraightenParams,
+    settings: Settings<'_>,
+    ctx: &mut Context<'_>,
+) -> Result<Looked> {
     let nothing = Looked {
         report: None,
         bent: None,
@@ -106,14 +118,16 @@ pub(super) fn unbend(
     }
     let ground = Ground::of(before)?;
     let land = ground.land(settings);
-    let found = ctx.stage("bend", |ctx| Bend::find(&land, &mirrors, ctx))?;
+    let found = ctx.stage("bend", |ctx| {
+        Bend::find_unless(denied, &land, &mirrors, ctx)
+    })?;
     let Some(bend) = found else {
         return Ok(nothing);
     };
     let mut report = BendReport::new(&bend);
     let enough = bend.degrees >= params.min_bend || !plane::mirrored(before);
     let wanted = wanted(report.verdict, params.when);
-    let undone = if enough && wanted {
+    let undone = if enough && wanted && !denied(&bend.trust) {
         undone(before, asymmetry, &land, &bend, params.share, settings, ctx)?
     } else {
         None

@@ -43,14 +43,27 @@ impl Bend {
     /// # Errors
     /// [`crate::Error::Numerical`], [`crate::Error::Cancelled`].
     pub fn find(land: &Land<'_>, mirrors: &Mirrors, ctx: &mut Context<'_>) -> Result<Option<Self>> {
+        Self::find_unless(&|_| false, land, mirrors, ctx)
+    }
+
+    /// [`Bend::find`], which does not go on to make the field of a bend better that is `denied` by what is trusted of it.
+    ///
+    /// # Errors
+    /// As [`Bend::find`].
+    pub fn find_unless(
+        denied: &dyn Fn(&Trust) -> bool,
+        land: &Land<'_>,
+        mirrors: &Mirrors,
+        ctx: &mut Context<'_>,
+    ) -> Result<Option<Self>> {
         if land.wall.is_some() {
-            return Self::find_on(land, mirrors, ctx);
+            return Self::find_on(denied, land, mirrors, ctx);
         }
         if mirrors.sure.is_empty() {
             return Ok(None);
         }
         let Some(control) = decimated(land.surface, FACES)? else {
-            return Self::find_on(land, mirrors, ctx);
+            return Self::find_on(denied, land, mirrors, ctx);
         };
         let surface = &control.surface;
         let closest = ClosestPoint::new(surface);
@@ -60,7 +73,7 @@ impl Bend {
             .map(|s| stiffness_on(surface, land.surface, s));
         let coarse =
             Land::new(surface, &closest, &samples, land.reach).with_stiffness(stiffness.as_deref());
-        let found = Self::find_on(&coarse, mirrors, ctx)?;
+        let found = Self::find_on(denied, &coarse, mirrors, ctx)?;
         Ok(found.map(|bend| Self {
             settled: bend.settled.placed_on(land.closest),
             field: bend.field.placed_on(land.closest),
@@ -73,7 +86,12 @@ impl Bend {
         Blend::new(land.surface, land.samples).means(&self.trust.region(land))
     }
 
-    fn find_on(land: &Land<'_>, mirrors: &Mirrors, ctx: &mut Context<'_>) -> Result<Option<Self>> {
+    fn find_on(
+        denied: &dyn Fn(&Trust) -> bool,
+        land: &Land<'_>,
+        mirrors: &Mirrors,
+        ctx: &mut Context<'_>,
+    ) -> Result<Option<Self>> {
         let starts = candidates(land, mirrors, ctx)?;
         let Some(first) = starts.first() else {
             return Ok(None);
@@ -86,7 +104,7 @@ impl Bend {
         let settler = Settler::new(land);
         let grown = promising(land, &settler, &starts, ctx)?;
         let first = settler.settle(grown, ctx)?;
-        let (settled, trust) = regrown(land, &settler, first, ctx)?;
+        let (settled, trust) = regrown(denied, land, &settler, first, ctx)?;
         let field = match trust.verdict() {
             Verdict::Refuse => settled.clone(),
             Verdict::Uncertain if land.wall.is_none() => {
@@ -134,8 +152,9 @@ const LOOSE: f64 = 0.03;
 const ROUNDS: usize = 3;
 
 /// A field of which much is doubtful grown once more, from what is trusted of it, where the settled mirrors say: pairs that slid while
-/// it grew are found anew. Whichever is to be trusted more.
+/// it grew are found anew. Whichever is to be trusted more; the first where that is `denied`.
 fn regrown(
+    denied: &dyn Fn(&Trust) -> bool,
     land: &Land<'_>,
     settler: &Settler<'_>,
     first: SymmetryField,
@@ -145,7 +164,7 @@ fn regrown(
     let mut field = first;
     for _ in 0..ROUNDS {
         let loose = trust.verdict() != Verdict::Accept || trust.unfit > LOOSE;
-        if !loose || land.wall.is_some() {
+        if !loose || land.wall.is_some() || denied(&trust) {
             break;
         }
         let seeds = field.of(&trust.trusted).partners;
