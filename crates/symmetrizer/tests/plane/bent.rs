@@ -55,6 +55,46 @@ fn wings_are_paired_as_one_line_says() {
     assert!(result.distortion.rms < 2.0, "{}", result.distortion.rms);
 }
 
+/// The ring of a drop of so many units' length and half width, its tip beside the middle.
+fn wing([length, width]: [f64; 2], degrees: f64, tip: [f64; 2]) -> String {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let point = |k: u32| {
+        let t = f64::from(k) / 120.0 * std::f64::consts::TAU;
+        let x = length * (1.0 + t.cos()) / 2.0;
+        let y = width * t.sin() * (0.6 + 0.4 * t.cos());
+        format!(
+            "[{},{}]",
+            tip[0] + cos * x - sin * y,
+            tip[1] + sin * x + cos * y
+        )
+    };
+    let points: Vec<String> = (0..120).map(point).collect();
+    format!("[{}]", points.join(","))
+}
+
+/// Four wings without a body, each symmetric by itself, one of the larger two turned by six degrees. The longest ring is one of two: paired
+/// with itself, it would turn the wings about each other.
+#[test]
+fn wings_without_a_body_keep_their_places() {
+    let [upper, lower] = [[200.0, 45.0], [130.0, 35.0]];
+    let rings = [
+        wing(upper, 40.0, [8.0, 10.0]),
+        wing(upper, 134.0, [-8.0, 10.0]),
+        wing(lower, -50.0, [8.0, -10.0]),
+        wing(lower, 230.0, [-8.0, -10.0]),
+    ];
+    let text = format!("{{\"rings\": [{}]}}", rings.join(","));
+    let drawing = decode(text.into_bytes(), Format::Json, &Reading::default()).expect("rings");
+    let done = symmetrized(&drawing);
+    match &done.job.report.result {
+        Some(result) => {
+            assert!(result.asymmetry.mean < 0.05, "{}", result.asymmetry.mean);
+            assert!(result.distortion.rms < 1.0, "{}", result.distortion.rms);
+        }
+        None => assert_eq!(done.drawing.outline(), drawing.outline()),
+    }
+}
+
 /// Under the line of its wings alone the antennae would be torn apart.
 #[test]
 fn a_drawing_that_would_come_out_worse_is_left() {
