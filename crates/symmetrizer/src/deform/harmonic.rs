@@ -1,5 +1,7 @@
 //! What is known on a boundary, spread evenly over the inside.
 
+use rayon::prelude::*;
+
 use crate::deform::failure;
 use crate::deform::laplacian::edge_weights;
 use crate::deform::solver::{Entries, SolveError};
@@ -50,15 +52,19 @@ fn spread(
             (Some(_), Some(_)) => {}
         }
     }
-    let mut matrix = entries.factorized(count)?;
-    let mut found = vec![Matrix3::zeros(); count];
-    for k in 0..9 {
+    let matrix = entries.factorized(count)?;
+    let solved = |k: usize| {
         let mut x: Vec<f64> = right.iter().map(|m| m[k]).collect();
         if x.iter().any(|x| *x != 0.0) {
             matrix.solve(&mut x)?;
         }
-        found.iter_mut().zip(&x).for_each(|(m, x)| m[k] = *x);
-    }
+        Ok(x)
+    };
+    let entries: Vec<Vec<f64>> = (0..9)
+        .into_par_iter()
+        .map(solved)
+        .collect::<std::result::Result<_, _>>()?;
+    let found = |n: usize| Matrix3::from_fn(|r, c| entries[r + 3 * c][n]);
     let all = known.iter().zip(&number);
-    Ok(all.map(|(k, &n)| k.unwrap_or_else(|| found[n])).collect())
+    Ok(all.map(|(k, &n)| k.unwrap_or_else(|| found(n))).collect())
 }

@@ -35,9 +35,11 @@ pub fn regain(
             kept.then(|| motions[v as usize].rotation)
         })
         .collect();
-    let rotations = rotations_inside(&patch.rest, &known)?;
-    let weights = edge_weights(&patch.rest, None);
-    let mut system = EdgeSystem::new(&patch.rest, &weights).map_err(|e| failure(e, 0))?;
+    let (rotations, system) = rayon::join(
+        || rotations_inside(&patch.rest, &known),
+        || EdgeSystem::new(&patch.rest, &edge_weights(&patch.rest, None)),
+    );
+    let (rotations, mut system) = (rotations?, system.map_err(|e| failure(e, 0))?);
     system.set_fixed(patch.held.clone());
     let from: Vec<Point> = patch
         .vertices

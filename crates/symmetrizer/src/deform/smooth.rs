@@ -3,6 +3,8 @@
 //! min sum_v A_v c_v |u_v - t_v|^2 + lambda^2 sum_edges k_e |u_i - u_j|^2 with cotangent weights k_e,
 //! clamped to stay positive on bad triangles.
 
+use rayon::prelude::*;
+
 use crate::deform::laplacian::edge_weights;
 use crate::deform::solver::{Cholesky, SolveError};
 use crate::geom::Vector;
@@ -84,11 +86,10 @@ impl SmoothField {
             return Ok(vec![Vector::zeros(); n]);
         }
         self.cholesky.factorize(&values)?;
-        for column in x.chunks_mut(n) {
-            if column.iter().any(|v| *v != 0.0) {
-                self.cholesky.solve(&values, column)?;
-            }
-        }
+        let cholesky = &self.cholesky;
+        x.par_chunks_mut(n)
+            .filter(|column| column.iter().any(|v| *v != 0.0))
+            .try_for_each(|column| cholesky.solve(&values, column))?;
         Ok((0..n)
             .map(|v| Vector::new(x[v], x[n + v], x[2 * n + v]))
             .collect())

@@ -66,8 +66,7 @@ pub fn mend(before: &Surface, after: Surface) -> Result<Mended> {
     if crossing_faces(&after).is_empty() && inverted_faces(before, &after).is_empty() {
         return Ok(untouched(after, 0));
     }
-    let mut mending = Mending::new(before);
-    let motions = motions(before, &after);
+    let (mut mending, motions) = rayon::join(|| Mending::new(before), || motions(before, &after));
     let mut tangled = mending.tangles.faces(before, &after);
     let mut best = untouched(after.clone(), tangled.len());
     for _ in 0..ATTEMPTS {

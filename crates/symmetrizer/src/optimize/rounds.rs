@@ -150,9 +150,13 @@ impl<'a> Cloth<'a> {
         changed: &'a Changed,
         plane: Plane,
     ) -> std::result::Result<Self, SolveError> {
-        let closest = ClosestPoint::new(surface);
+        let stiffness = changed.stiffness.as_deref();
+        let (field, closest) = rayon::join(
+            || SmoothField::new(surface, stiffness),
+            || ClosestPoint::new(surface),
+        );
         Ok(Self {
-            field: SmoothField::new(surface, changed.stiffness.as_deref())?,
+            field: field?,
             now: surface.clone(),
             aim: Aim::at(surface, plane, &closest, changed),
             closest,

@@ -49,11 +49,15 @@ impl Tangles {
     /// Sheets that ran through each other at rest go on doing so, along a line that slides: what crosses next to
     /// where the same two sheets crossed is nothing new.
     pub fn faces(&mut self, rest: &Surface, now: &Surface) -> Vec<u32> {
-        self.crossings.follow(now);
-        let mut pairs = self.crossings.among(now, |_| true);
+        let crossings = &mut self.crossings;
+        let crossing = || {
+            crossings.follow(now);
+            crossings.among(now, |_| true)
+        };
+        let (mut pairs, inverted) = rayon::join(crossing, || inverted_faces(rest, now));
         pairs.retain(|pair| !self.known(*pair));
         let mut faces = faces_of(&pairs);
-        faces.extend(inverted_faces(rest, now));
+        faces.extend(inverted);
         faces.sort_unstable();
         faces.dedup();
         faces

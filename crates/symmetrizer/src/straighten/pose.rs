@@ -119,7 +119,7 @@ fn followed(land: &Land<'_>, field: &SymmetryField, turns: &[Matrix3]) -> Result
         for (i, w) in held.iter().enumerate() {
             entries.add(i, i, *w);
         }
-        let mut matrix = entries.factorized(turns.len())?;
+        let matrix = entries.factorized(turns.len())?;
         let mut sums = vec![Matrix3::zeros(); turns.len()];
         for k in 0..9 {
             let mut x: Vec<f64> = turns.iter().zip(&held).map(|(t, w)| t[k] * w).collect();

@@ -6,6 +6,7 @@
 //! sum over edges of w |rho_i - rho_j|^2 + W sum over pairs of c |rho_q - s A rho_p|^2 against a mass.
 
 use nalgebra::DMatrix;
+use rayon::prelude::*;
 
 use crate::deform::solver::{Entries, Factorized, SolveError};
 use crate::error::Error;
@@ -160,11 +161,7 @@ fn add_pair(entries: &mut Entries, p: usize, q: usize, a: &Matrix3, c: f64) {
 }
 
 /// Inverse subspace iteration: the `wanted` smallest eigenvectors of a matrix against a diagonal mass.
-fn smallest(
-    mut matrix: Factorized,
-    mass: &[f64],
-    wanted: usize,
-) -> Result<Vec<Vec<f64>>, SolveError> {
+fn smallest(matrix: Factorized, mass: &[f64], wanted: usize) -> Result<Vec<Vec<f64>>, SolveError> {
     // Any start that is not orthogonal to what is sought.
     let start = |k: usize| -> Vec<f64> {
         let any = |i: usize| ((1 + k) as f64 * (i % 3 + 1) as f64 + 0.001 * i as f64).sin();
@@ -174,10 +171,10 @@ fn smallest(
     orthonormalize(&mut block, mass);
     for _ in 0..ROUNDS {
         let before = block.clone();
-        for x in &mut block {
+        block.par_iter_mut().try_for_each(|x| {
             x.iter_mut().zip(mass).for_each(|(x, m)| *x *= m);
-            matrix.solve(x)?;
-        }
+            matrix.solve(x)
+        })?;
         block = ritz(&before, &block, mass);
         orthonormalize(&mut block, mass);
         let turned = |x: &Vec<f64>| {

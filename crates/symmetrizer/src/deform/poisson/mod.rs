@@ -102,7 +102,7 @@ pub fn relax_tied(
     };
     let ties: Vec<Tie> = ties.iter().map(scaled).collect();
     let relaxed = || {
-        let mut tied = Tied::new(rest, &edges, &ties)?;
+        let tied = Tied::new(rest, &edges, &ties)?;
         let mut moved = tied.turned(rotations)?;
         for _ in 0..rounds {
             let now = rest.with_positions(moved);

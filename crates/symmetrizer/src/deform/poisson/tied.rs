@@ -1,5 +1,7 @@
 //! Prescribed rotations with pairs of points that are tied to each other, both ends free.
 
+use rayon::prelude::*;
+
 use crate::deform::Tie;
 use crate::deform::solver::{Entries, Factorized, SolveError};
 use crate::geom::{Matrix3, Point, Vector};
@@ -15,13 +17,12 @@ const SIGNS: [f64; 3] = [-1.0, 1.0, 1.0];
 pub struct Tied<'a> {
     rest: &'a Surface,
     edges: &'a [([u32; 2], f64)],
-    /// For each sign.
+    /// For each sign, -1 first.
     systems: [System; 2],
 }
 
 /// What is to be solved for the axes of one sign.
 struct System {
-    sign: f64,
     ridge: f64,
     matrix: Factorized,
 }
@@ -44,7 +45,6 @@ impl System {
         let ridge = RIDGE * entries.mean_diagonal(n);
         (0..n).for_each(|v| entries.add(v, v, ridge));
         Ok(Self {
-            sign,
             ridge,
             matrix: entries.factorized(n)?,
         })
@@ -58,7 +58,8 @@ impl<'a> Tied<'a> {
         edges: &'a [([u32; 2], f64)],
         ties: &[Tie],
     ) -> Result<Self, SolveError> {
-        let [first, others] = [-1.0, 1.0].map(|sign| System::new(rest, edges, ties, sign));
+        let of = |sign| System::new(rest, edges, ties, sign);
+        let (first, others) = rayon::join(|| of(-1.0), || of(1.0));
         Ok(Self {
             rest,
             edges,
@@ -67,22 +68,25 @@ impl<'a> Tied<'a> {
     }
 
     /// Positions that minimise the edges' misfit to the rotations plus that of the ties.
-    pub fn turned(&mut self, rotations: &[Matrix3]) -> Result<Vec<Point>, SolveError> {
+    pub fn turned(&self, rotations: &[Matrix3]) -> Result<Vec<Point>, SolveError> {
         let wanted = wanted(self.rest, self.edges, rotations);
-        let mut moved = self.rest.positions.clone();
-        for system in &mut self.systems {
-            for axis in (0..3).filter(|&a| SIGNS[a] == system.sign) {
-                // A second solve takes out what the first one's ridge held back.
-                for _ in 0..2 {
-                    let held = wanted.iter().zip(&moved);
-                    let held = held.map(|(w, x)| w[axis] + system.ridge * x[axis]);
-                    let mut x: Vec<f64> = held.collect();
-                    system.matrix.solve(&mut x)?;
-                    moved.iter_mut().zip(x).for_each(|(p, x)| p[axis] = x);
-                }
+        let solved = |axis: usize| {
+            let system = &self.systems[usize::from(SIGNS[axis] > 0.0)];
+            let mut x: Vec<f64> = self.rest.positions.iter().map(|p| p[axis]).collect();
+            // A second solve takes out what the first one's ridge held back.
+            for _ in 0..2 {
+                let held = wanted.iter().zip(&x);
+                x = held.map(|(w, x)| w[axis] + system.ridge * x).collect();
+                system.matrix.solve(&mut x)?;
             }
-        }
-        Ok(moved)
+            Ok(x)
+        };
+        let axes = (0..3).into_par_iter().map(solved);
+        let [x, y, z] = &axes.collect::<Result<Vec<_>, SolveError>>()?[..] else {
+            unreachable!("there are three axes")
+        };
+        let places = x.iter().zip(y).zip(z);
+        Ok(places.map(|((x, y), z)| Point::new(*x, *y, *z)).collect())
     }
 }
 

@@ -120,7 +120,7 @@ impl Cholesky {
     ///
     /// # Errors
     /// [`SolveError::Inaccurate`] where the residual does not vanish.
-    pub fn solve(&mut self, values: &[f64], x: &mut [f64]) -> Result<(), SolveError> {
+    pub fn solve(&self, values: &[f64], x: &mut [f64]) -> Result<(), SolveError> {
         let n = self.size();
         let columns = x.len() / n;
         let b = x.to_vec();

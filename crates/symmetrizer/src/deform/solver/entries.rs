@@ -72,7 +72,7 @@ impl Factorized {
     ///
     /// # Errors
     /// [`SolveError::Inaccurate`].
-    pub fn solve(&mut self, x: &mut [f64]) -> Result<(), SolveError> {
+    pub fn solve(&self, x: &mut [f64]) -> Result<(), SolveError> {
         self.cholesky.solve(&self.values, x)
     }
 }
@@ -97,7 +97,7 @@ mod tests {
             -2.0 * x + 7.0 * y + 3.0 * z,
             -2.0 * x + 3.0 * y + 7.0 * z,
         ];
-        let mut matrix = entries.factorized(3).expect("positive definite");
+        let matrix = entries.factorized(3).expect("positive definite");
         matrix.solve(&mut b).expect("accurate");
         for (got, want) in b.iter().zip(wanted) {
             assert!((got - want).abs() < 1e-12, "{b:?}");
