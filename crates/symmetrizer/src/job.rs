@@ -10,6 +10,7 @@ mod further;
 mod guard;
 pub mod kinds;
 mod measured;
+mod merged;
 mod otherwise;
 pub mod pictures;
 pub mod plane;
@@ -180,13 +181,7 @@ fn made(
     let mean = measured.mean / 100.0 * before.diagonal;
     let exact = measured.max <= EXACT || measured.rms <= ROUNDED && measured.max <= STRAY;
     let arranged = match (before.wall.is_some(), only) {
-        (false, false) => arranged::symmetrized(
-            &mut before,
-            (mean, exact),
-            &params.straighten,
-            settings,
-            ctx,
-        )?,
+        (false, false) => arranged::symmetrized(&mut before, (mean, exact), params, settings, ctx)?,
         _ => mirrored(&before, (mean, exact), (params, only), settings, ctx)?,
     };
     let Arranged {

@@ -306,3 +306,124 @@ fn only_what_is_asked_for_is_made_exact() {
         .expect("an error");
     assert!(error.to_string().contains("no symmetry 77"), "{error}");
 }
+
+/// A column with five lobes that wind about it, `n` x `m` vertices and a little noise, its middle bent by `degrees`.
+fn column(n: usize, m: usize, degrees: f64) -> Mesh {
+    let (height, from, to) = (3.0, -0.3, 0.3);
+    let k = degrees.to_radians() / (to - from);
+    let mut state = 7_u64;
+    let mut noise = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        0.004 * ((state >> 33) as f64 / f64::from(1_u32 << 31) - 0.5)
+    };
+    let bent = |x: Vector| {
+        let s = x.z.clamp(from, to);
+        let (sine, cosine) = (k * (s - from)).sin_cos();
+        let rest = x.z - s;
+        let (way, up) = ((1.0 - cosine) / k, from + sine / k);
+        Point::new(
+            way + rest * sine + x.x * cosine,
+            x.y,
+            up + rest * cosine - x.x * sine,
+        )
+    };
+    let mut positions = Vec::new();
+    for j in 0..m {
+        let t = j as f64 / (m - 1) as f64;
+        let z = height * (t - 0.5);
+        let closed = (1.0 - (2.0 * t - 1.0).abs().powi(8)).sqrt().max(0.02);
+        let round = (0.55 + 0.15 * (10.7 * t + 0.4).sin() + 0.1 * t) * closed;
+        let deep = 0.5 + 0.5 * (14.5 * t).sin().powi(2);
+        for i in 0..n {
+            let a = std::f64::consts::TAU * i as f64 / n as f64;
+            let lobes = 0.28 * (5.0 * a).cos() + 0.12 * (10.0 * a + 0.5).cos();
+            let r = round * (1.0 + lobes * deep);
+            let turned = a + 0.35 * z;
+            let x = Vector::new(
+                r * turned.cos() + noise(),
+                r * turned.sin() + noise(),
+                z + noise(),
+            );
+            positions.push(bent(x));
+        }
+    }
+    let mut triangles: Vec<[u32; 3]> = Vec::new();
+    let at = |j: usize, i: usize| (j * n + i % n) as u32;
+    for (j, i) in (1..m).flat_map(|j| (0..n).map(move |i| (j, i))) {
+        let [a, b, c, d] = [at(j - 1, i), at(j - 1, i + 1), at(j, i), at(j, i + 1)];
+        triangles.extend([[a, b, d], [a, d, c]]);
+    }
+    for (j, z) in [(0, -height / 2.0), (m - 1, height / 2.0)] {
+        let pole = positions.len() as u32;
+        positions.push(bent(Vector::new(0.0, 0.0, z)));
+        for i in 0..n {
+            let side = [at(j, i), at(j, i + 1)];
+            let [a, b] = if j == 0 { [side[1], side[0]] } else { side };
+            triangles.push([pole, a, b]);
+        }
+    }
+    Mesh {
+        positions,
+        polygons: triangles.into_iter().collect(),
+    }
+}
+
+/// Each half of a bent column has five-fold rotations about an axis of its own. Merged they are those of all of it, with the column as long
+/// along its axis as it was along its bend; where no bend is to be undone each half gets its own.
+#[test]
+fn rotations_about_a_bent_axis_are_merged() {
+    let mesh = column(70, 110, 30.0);
+    let done = run(&mesh, &Params::default());
+    let merged = done.report.steps.iter().any(|s| {
+        matches!(s, Step::Merge { kept: true, coverage, .. } if coverage[0] < 0.6 && coverage[1] > 0.95)
+    });
+    assert!(merged, "{:?}", done.report.steps);
+    let [met] = goals(&done) else {
+        panic!("{:?}", goals(&done));
+    };
+    assert!(met.kept && met.order == Some(5) && met.area_fraction > 0.95);
+    let motions: Vec<Isometry> = exact(&done, "C5").elements.iter().map(isometry).collect();
+    let left = residual(&done.shape, &motions);
+    let straight = column(70, 110, 1e-6);
+    let noise = residual(
+        &straight,
+        &(1..5)
+            .map(|k| Isometry {
+                linear: symmetrizer::geom::exp_rotation(
+                    &(Vector::z() * (std::f64::consts::TAU * f64::from(k) / 5.0)),
+                ),
+                translation: Vector::zeros(),
+            })
+            .collect::<Vec<_>>(),
+    );
+    assert!(
+        left < noise,
+        "{left} % of L from its copies, the straight one {noise}"
+    );
+    let result = done.report.result.as_ref().expect("a result");
+    assert_eq!(result.distortion.inverted_faces, 0);
+    let poles = |mesh: &Mesh| {
+        let [.., low, high] = mesh.positions.as_slice() else {
+            panic!("a column has poles");
+        };
+        (high - low).norm()
+    };
+    let [now, wanted] = [&done.shape, &straight].map(poles);
+    assert!(
+        (now / wanted - 1.0).abs() < 0.02,
+        "{now} long, not {wanted}"
+    );
+    // It shows what was made exact on the input, too.
+    before_after(&done, "column").expect("a page");
+
+    let mut params = Params::default();
+    params.straighten.when = symmetrizer::straighten::When::Never;
+    params.detect.kinds = vec![symmetrizer::detect::Want::Rotation];
+    let apart = run(&mesh, &params);
+    let fivefold = goals(&apart)
+        .iter()
+        .filter(|g| g.kept && g.order == Some(5));
+    assert_eq!(fivefold.count(), 2);
+}

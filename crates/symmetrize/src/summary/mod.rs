@@ -170,8 +170,8 @@ fn done(step: &Step) -> String {
             kept,
             ..
         } => format!(
-            "merged {a} and {b} in {steps} steps: mirrors {:.2} -> {:.2} % of L apart, \
-             best mirror holds for {:.0} -> {:.0} % of the surface{}",
+            "merged {a} and {b} in {steps} steps: {:.2} -> {:.2} % of L apart, \
+             the best holds for {:.0} -> {:.0} % of the surface{}",
             100.0 * distance[0],
             100.0 * distance[1],
             100.0 * coverage[0],

@@ -8,15 +8,17 @@ use crate::field::trust::{Trust, Verdict};
 use crate::geom::median;
 use crate::job::either::{Either, Made};
 use crate::job::guard::mended;
+use crate::job::merged::{Merged, merged, placed, undo};
 use crate::job::{Bent, Detected, bent};
 use crate::optimize::orbit::{Goal, orbits};
 use crate::optimize::outcome::{mirrors, next_id};
 use crate::optimize::plan::goals;
-use crate::optimize::schedule::Settings;
+use crate::optimize::schedule::{Settings, prepared};
 use crate::optimize::{Optimized, Outcome};
+use crate::params::Params;
 use crate::patch::Symmetry;
 use crate::report::BendReport;
-use crate::straighten::StraightenParams;
+use crate::straighten::When;
 use crate::transform::Kind;
 
 /// What is to be done with the symmetries of a shape.
@@ -105,13 +107,16 @@ pub(super) struct Arranged {
 pub(super) fn symmetrized(
     found: &mut Detected,
     (mean, exact): (f64, bool),
-    params: &StraightenParams,
+    params: &Params,
     settings: Settings<'_>,
     ctx: &mut Context<'_>,
 ) -> Result<Arranged> {
     check_only(found, settings)?;
+    let meet = |found: &Detected, goals: &[Goal], ctx: &mut Context<'_>| {
+        Ok(Arranged::plain(met(found, goals, params, settings, ctx)?))
+    };
     let (details, all) = match plan(found, settings) {
-        Plan::Orbits(goals) => return Ok(Arranged::plain(met(found, &goals, settings, ctx)?)),
+        Plan::Orbits(goals) => return meet(found, &goals, ctx),
         Plan::Mirror { details, all } => (details, all),
     };
     if exact && mirrors(&found.detection).next().is_some() {
@@ -124,14 +129,15 @@ pub(super) fn symmetrized(
         detect_anew(surface, &found.detection, settings.detect, ctx)
     })?;
     if mirrors(&near).next().is_none() {
-        return Ok(Arranged::plain(met(found, &all, settings, ctx)?));
+        return meet(found, &all, ctx);
     }
     let contradicted = is_contradicted(&near, &details);
     let near = known(found, near);
     let state = state(found, near);
     // A mirror that drifts over a plate passes by the elements on it as a straight one does.
     let denies = |trust: &Trust| contradicted && is_outside(&details, &trust.trusted);
-    let mut looked = bent::unbend_unless(&denies, &state, mean, params, settings, ctx)?;
+    let straighten = &params.straighten;
+    let mut looked = bent::unbend_unless(&denies, &state, mean, straighten, settings, ctx)?;
     let verdict = looked.report.as_ref().map(|bend| bend.verdict);
     let denied = looked
         .bent
@@ -143,13 +149,13 @@ pub(super) fn symmetrized(
             part: false,
         },
         None if denied || contradicted && verdict != Some(Verdict::Accept) => {
-            return Ok(Arranged::plain(met(found, &all, settings, ctx)?));
+            return meet(found, &all, ctx);
         }
         None => {
             let shape = Either {
                 before: &state,
                 asymmetry: mean,
-                params,
+                params: straighten,
                 settings,
             };
             shape.made(&mut looked, ctx)?
@@ -209,10 +215,11 @@ fn state(found: &Detected, near: Detection) -> Detected {
     }
 }
 
-/// Makes `goals` exact where they hold.
+/// Makes `goals` exact where they hold, those merged first that a bend keeps apart, if it is to go.
 fn met(
     found: &Detected,
     goals: &[Goal],
+    params: &Params,
     settings: Settings<'_>,
     ctx: &mut Context<'_>,
 ) -> Result<Optimized> {
@@ -224,9 +231,37 @@ fn met(
             Outcome::NoSymmetry,
         ));
     }
-    let done = ctx.stage("orbits", |ctx| {
-        orbits(surface, &found.detection, goals, settings, ctx)
-    })?;
+    let merged = match params.straighten.when != When::Never && params.straighten.share >= 1.0 {
+        true => merged(found, goals, &params.detect(), settings, ctx)?,
+        false => Merged::nothing(found),
+    };
+    let drawn = |found: &Detected, goals: &[Goal], ctx: &mut Context<'_>| {
+        ctx.stage("orbits", |ctx| {
+            orbits(
+                &found.working.surface,
+                &found.detection,
+                goals,
+                settings,
+                ctx,
+            )
+        })
+    };
+    let mut steps = merged.steps;
+    if let Some(now) = &merged.now {
+        let mut done = drawn(&now.found, &now.goals, ctx)?;
+        done.energy = prepared(surface, settings)?.energy_at(&done.positions);
+        let most = settings.optimize.max_deformation.unwrap_or(f64::INFINITY);
+        if done.energy <= most && now.is_met(&done) {
+            placed(&mut done.goals, &now.found, found);
+            done.steps.splice(0..0, steps);
+            done.next_id = merged.next_id;
+            return mended(found, done, ctx);
+        }
+        steps.iter_mut().for_each(undo);
+    }
+    let mut done = drawn(found, goals, ctx)?;
+    done.steps.splice(0..0, steps);
+    done.next_id = merged.next_id;
     mended(found, done, ctx)
 }
 

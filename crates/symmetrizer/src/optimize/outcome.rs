@@ -59,13 +59,13 @@ pub enum Step {
         symmetries: [u32; 2],
         /// Deformation steps.
         steps: usize,
-        /// Distance of their mirrors before and after, fraction of L.
+        /// Their distance in transformation space before and after, fraction of L.
         distance: [f64; 2],
-        /// Share of the surface under the best mirror before and after.
+        /// Share of the surface that the best one holds for before and after.
         coverage: [f64; 2],
         /// Deformation energy after it.
         energy: f64,
-        /// False where the merge was undone because coverage did not grow.
+        /// False where the merge was undone because coverage did not grow enough.
         kept: bool,
     },
     /// The whole was contracted under the final mirror.

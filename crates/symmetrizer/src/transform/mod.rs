@@ -1,5 +1,6 @@
 //! Isometries, the space they form, and the closed forms of section 3 and appendix A.
 
+pub mod axis;
 pub mod class;
 pub mod displacement;
 pub mod isometry;
@@ -7,6 +8,7 @@ pub mod kind;
 pub mod optimal;
 pub mod space;
 
+pub use axis::{Axis, Jointed};
 pub use class::Class;
 pub use displacement::displacements;
 pub use isometry::{Isometry, Plane};

@@ -1,9 +1,11 @@
 //! What is to be made exact: an orbit's motions and the places that they carry onto each other.
 
+use std::collections::BTreeSet;
+
 use crate::group::Pattern;
 use crate::optimize::orbit::slides::slides;
 use crate::slip::Continuous;
-use crate::transform::{Ambient, Isometry};
+use crate::transform::{Ambient, Axis, Isometry};
 
 /// Symmetries that are made exact together.
 #[derive(Debug, Clone)]
@@ -85,11 +87,41 @@ impl Goal {
         }
     }
 
+    /// The order of the group, where it is one of rotations about one axis, and that axis.
+    pub fn cyclic(&self) -> Option<(usize, Axis)> {
+        let Orbit::Group(elements) = &self.orbit else {
+            return None;
+        };
+        let axis = Axis::of(elements.first()?)?;
+        let about = |t: &Isometry| {
+            let own = Axis::of(t);
+            own.is_some_and(|own| own.direction.cross(&axis.direction).norm() < ONE_AXIS)
+        };
+        let all = self.ambient == Ambient::Space && elements.iter().all(about);
+        all.then_some((elements.len() + 1, axis))
+    }
+
+    /// The share of the smaller goal's samples that are in both.
+    pub fn shared(&self, other: &Self) -> f64 {
+        let samples = |g: &Self| {
+            g.places
+                .iter()
+                .flatten()
+                .copied()
+                .collect::<BTreeSet<u32>>()
+        };
+        let (a, b) = (samples(self), samples(other));
+        a.intersection(&b).count() as f64 / a.len().min(b.len()).max(1) as f64
+    }
+
     /// Whether its places are the whole surface.
     pub fn is_of_the_whole(&self) -> bool {
         self.area_fraction >= WHOLE
     }
 }
+
+/// Rotations are about one axis whose directions differ by less than this sine: those of a group are exact.
+const ONE_AXIS: f64 = 1e-6;
 
 /// Places of this share of the area are the whole surface: a few samples beside noise or open rims find no partner.
 pub const WHOLE: f64 = 0.95;

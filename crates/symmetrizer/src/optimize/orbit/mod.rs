@@ -10,10 +10,12 @@ pub mod freedom;
 pub mod goal;
 mod ground;
 pub mod means;
+pub mod merge;
 pub mod rounds;
 pub mod schedule;
 mod slides;
 
 pub use goal::{Goal, Link, Orbit};
+pub use merge::{jointed, merge};
 pub use rounds::apart;
 pub use schedule::orbits;

@@ -154,7 +154,7 @@ fn quiet(before: &Fitted, goals: &[Goal]) -> Vec<bool> {
     let open = |k: usize| !before.goals[k].is_met;
     let is_louder = |k: usize, other: usize| {
         let louder = open(other) && before.rms[other] > LOUDER * before.rms[k];
-        louder && shared(&goals[k], &goals[other]) >= TOUCHING
+        louder && goals[k].shared(&goals[other]) >= TOUCHING
     };
     let all = 0..goals.len();
     let quiet = |k| before.rms[k] < QUIET && all.clone().any(|other| is_louder(k, other));
@@ -192,21 +192,11 @@ fn given_up(goals: &[Goal], made: &Made) -> Option<(usize, Option<String>)> {
     pursued().find_map(|k| {
         let unmet = !gains(k) || made.drawn.rms[k] > (UNMET * made.before.rms[k]).max(FLOOR);
         let mut larger = 0..k;
-        let winner = larger.find(|&g| hinders(g) && shared(&goals[g], &goals[k]) >= SHARED);
+        let winner = larger.find(|&g| hinders(g) && goals[g].shared(&goals[k]) >= SHARED);
         let name = winner.map(|g| goals[g].name.clone());
         let spoils = winner.is_some_and(|g| made.before.goals[g].is_met);
         (spoils || unmet && (name.is_some() || !gains(k))).then_some((k, name))
     })
-}
-
-/// The share of the smaller goal's samples that are in both.
-fn shared(a: &Goal, b: &Goal) -> f64 {
-    let samples = |g: &Goal| {
-        let all = g.places.iter().flatten().copied();
-        all.collect::<std::collections::BTreeSet<u32>>()
-    };
-    let (a, b) = (samples(a), samples(b));
-    a.intersection(&b).count() as f64 / a.len().min(b.len()).max(1) as f64
 }
 
 /// The goals that are exact now: not those that were let be because they find few of their copies, nor those that were met and were
