@@ -307,8 +307,9 @@ fn only_what_is_asked_for_is_made_exact() {
     assert!(error.to_string().contains("no symmetry 77"), "{error}");
 }
 
-/// A column with five lobes that wind about it, `n` x `m` vertices and a little noise, its middle bent by `degrees`.
-fn column(n: usize, m: usize, degrees: f64) -> Mesh {
+/// A column with five lobes, which wind about it or are mirror images of themselves, and a little noise, its middle bent by `degrees`.
+fn column(winds: bool, degrees: f64) -> Mesh {
+    let (n, m) = (70, 110);
     let (height, from, to) = (3.0, -0.3, 0.3);
     let k = degrees.to_radians() / (to - from);
     let mut state = 7_u64;
@@ -338,9 +339,10 @@ fn column(n: usize, m: usize, degrees: f64) -> Mesh {
         let deep = 0.5 + 0.5 * (14.5 * t).sin().powi(2);
         for i in 0..n {
             let a = std::f64::consts::TAU * i as f64 / n as f64;
-            let lobes = 0.28 * (5.0 * a).cos() + 0.12 * (10.0 * a + 0.5).cos();
+            let second = if winds { 0.12 } else { 0.0 };
+            let lobes = 0.28 * (5.0 * a).cos() + second * (10.0 * a + 0.5).cos();
             let r = round * (1.0 + lobes * deep);
-            let turned = a + 0.35 * z;
+            let turned = a + if winds { 0.35 * z } else { 0.2 };
             let x = Vector::new(
                 r * turned.cos() + noise(),
                 r * turned.sin() + noise(),
@@ -374,7 +376,7 @@ fn column(n: usize, m: usize, degrees: f64) -> Mesh {
 /// along its axis as it was along its bend; where no bend is to be undone each half gets its own.
 #[test]
 fn rotations_about_a_bent_axis_are_merged() {
-    let mesh = column(70, 110, 30.0);
+    let mesh = column(true, 30.0);
     let done = run(&mesh, &Params::default());
     let merged = done.report.steps.iter().any(|s| {
         matches!(s, Step::Merge { kept: true, coverage, .. } if coverage[0] < 0.6 && coverage[1] > 0.95)
@@ -386,7 +388,7 @@ fn rotations_about_a_bent_axis_are_merged() {
     assert!(met.kept && met.order == Some(5) && met.area_fraction > 0.95);
     let motions: Vec<Isometry> = exact(&done, "C5").elements.iter().map(isometry).collect();
     let left = residual(&done.shape, &motions);
-    let straight = column(70, 110, 1e-6);
+    let straight = column(true, 1e-6);
     let noise = residual(
         &straight,
         &(1..5)
@@ -426,4 +428,20 @@ fn rotations_about_a_bent_axis_are_merged() {
         .iter()
         .filter(|g| g.kept && g.order == Some(5));
     assert_eq!(fivefold.count(), 2);
+}
+
+/// A bent column whose lobes are mirror images of themselves is mirrored about its bent axis. Once it is straight it has all of C5v.
+#[test]
+fn a_bent_column_with_mirrors_gets_its_rotations_too() {
+    let mesh = column(false, 30.0);
+    let done = run(&mesh, &Params::default());
+    let straightened = |s: &Step| matches!(s, Step::Straighten { .. });
+    assert!(done.report.steps.iter().any(straightened));
+    let motions: Vec<Isometry> = exact(&done, "C5v").elements.iter().map(isometry).collect();
+    assert_eq!(motions.len(), 9);
+    assert!(is_closed(&motions, done.shape.diagonal()));
+    let left = residual(&done.shape, &motions);
+    assert!(left < 0.06, "{left} % of L from its copies");
+    let result = done.report.result.as_ref().expect("a result");
+    assert_eq!(result.distortion.inverted_faces, 0);
 }

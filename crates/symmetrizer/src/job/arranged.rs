@@ -8,7 +8,7 @@ use crate::field::trust::{Trust, Verdict};
 use crate::geom::median;
 use crate::job::either::{Either, Made};
 use crate::job::guard::mended;
-use crate::job::merged::{Merged, merged, placed, undo};
+use crate::job::merged::{Merged, merged, placed, undo, with_rotations};
 use crate::job::{Bent, Detected, bent};
 use crate::optimize::orbit::{Goal, orbits};
 use crate::optimize::outcome::{mirrors, next_id};
@@ -144,10 +144,16 @@ pub(super) fn symmetrized(
         .as_ref()
         .is_some_and(|bent| denies(&bent.bend.trust));
     let made = match looked.done.take() {
-        Some(done) => Made {
-            done: mended(found, done, ctx)?,
-            part: false,
-        },
+        Some(done) => {
+            let done = match straighten.share >= 1.0 {
+                true => with_rotations(found, done, &details, &params.detect(), settings, ctx)?,
+                false => done,
+            };
+            Made {
+                done: mended(found, done, ctx)?,
+                part: false,
+            }
+        }
         None if denied || contradicted && verdict != Some(Verdict::Accept) => {
             return meet(found, &all, ctx);
         }

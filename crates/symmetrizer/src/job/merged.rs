@@ -6,14 +6,14 @@ use crate::error::Result;
 use crate::geom::{Point, PointIndex};
 use crate::job::Detected;
 use crate::job::state::detected;
-use crate::optimize::orbit::{Goal, jointed, merge};
+use crate::optimize::orbit::{Goal, jointed, merge, orbits};
 use crate::optimize::outcome::next_id;
 use crate::optimize::plan::goals;
 use crate::optimize::schedule::{Settings, moving, prepared};
 use crate::optimize::{Optimized, Step};
 use crate::patch::carry_ids;
 use crate::patch::ground::Ground;
-use crate::shape::ClosestPoint;
+use crate::shape::{ClosestPoint, Surface};
 
 /// A merge is kept where the group then holds for this share of what both held for.
 const KEPT: f64 = 0.85;
@@ -105,36 +105,21 @@ fn once(
     ctx: &mut Context<'_>,
 ) -> Result<Option<(Step, Option<Now>)>> {
     let surface = &found.working.surface;
-    if wanted.iter().filter(|goal| goal.cyclic().is_some()).count() < 2 {
+    let samples = &found.detection.samples;
+    let Some(([a, b], parts)) = jointed(wanted, samples, settings.optimize) else {
         return Ok(None);
-    }
+    };
     let mut body = ctx.stage("prepare", |_| prepared(surface, settings))?;
     let mut moving = moving(surface, &found.detection, settings, body.as_mut());
-    let Some([i, j]) = jointed(wanted, &moving, settings.optimize) else {
+    let joint = ctx.stage("merge", |ctx| {
+        merge(&mut moving, &parts, settings.optimize, ctx)
+    })?;
+    if joint.steps == 0 {
         return Ok(None);
-    };
-    let (a, b) = (&wanted[i], &wanted[j]);
-    let Some(joint) = ctx.stage("merge", |ctx| {
-        merge(&mut moving, [a, b], settings.optimize, ctx)
-    })?
-    else {
-        return Ok(None);
-    };
-    let whole = Settings {
-        detect: params,
-        ..settings
-    };
+    }
     let now = surface.with_positions(body.positions());
-    let mut state = detected(found, now, whole, ctx)?;
-    *next = renamed(found, &mut state, *next);
-    let common = joint.goal(
-        [a, b],
-        &Ground {
-            surface: &state.working.surface,
-            closest: &ClosestPoint::new(&state.working.surface),
-            samples: &state.detection.samples,
-        },
-    );
+    let state = later(found, now, next, params, settings, ctx)?;
+    let common = on(&state, |ground| parts.goal(&joint.axis, None, ground));
     let covered = common.area_fraction;
     let kept = !joint.limited && covered >= KEPT * (a.area_fraction + b.area_fraction);
     let first = |goal: &Goal| goal.symmetries.first().copied().unwrap_or_default();
@@ -153,6 +138,83 @@ fn once(
         goals,
     };
     Ok(Some((step, kept.then_some(now))))
+}
+
+/// What was `done` to a bent shape that was `found`, two of whose `details` are one group of rotations now that it is straight: that group
+/// made exact, with the mirror that the shape has by then. As it was where there is none.
+///
+/// # Errors
+/// Those of detection and the deformation.
+pub(super) fn with_rotations(
+    found: &Detected,
+    done: Optimized,
+    details: &[Goal],
+    params: &DetectParams,
+    settings: Settings<'_>,
+    ctx: &mut Context<'_>,
+) -> Result<Optimized> {
+    let (rest, samples) = (&found.working.surface, &found.detection.samples);
+    let Some(([a, b], parts)) = jointed(details, samples, settings.optimize) else {
+        return Ok(done);
+    };
+    let mut next = done.next_id;
+    let now = rest.with_positions(done.positions.clone());
+    let places = parts
+        .at()
+        .map(|at| at.iter().map(|x| now.point(x)).collect());
+    let axis = parts.joint(&places).common();
+    let state = later(found, now, &mut next, params, settings, ctx)?;
+    let group = on(&state, |ground| {
+        parts.goal(&axis, done.plane.as_ref(), ground)
+    });
+    if group.area_fraction < KEPT * (a.area_fraction + b.area_fraction) {
+        return Ok(done);
+    }
+    let mut more = ctx.stage("orbits", |ctx| {
+        let surface = &state.working.surface;
+        orbits(surface, &state.detection, &[group], settings, ctx)
+    })?;
+    more.energy = prepared(rest, settings)?.energy_at(&more.positions);
+    let most = settings.optimize.max_deformation.unwrap_or(f64::INFINITY);
+    if more.goals.is_empty() || more.energy > most {
+        return Ok(done);
+    }
+    placed(&mut more.goals, &state, found);
+    more.steps.splice(0..0, done.steps);
+    Ok(Optimized {
+        plane: done.plane,
+        next_id: next,
+        ..more
+    })
+}
+
+/// The shape `found` with another `surface`, and all its symmetries: those of before have the ids that they had, the others such from `next`
+/// on.
+fn later(
+    found: &Detected,
+    surface: Surface,
+    next: &mut u32,
+    params: &DetectParams,
+    settings: Settings<'_>,
+    ctx: &mut Context<'_>,
+) -> Result<Detected> {
+    let whole = Settings {
+        detect: params,
+        ..settings
+    };
+    let mut state = detected(found, surface, whole, ctx)?;
+    *next = renamed(found, &mut state, *next);
+    Ok(state)
+}
+
+/// What `work` makes of the ground of a state.
+fn on(state: &Detected, work: impl FnOnce(&Ground<'_>) -> Goal) -> Goal {
+    let surface = &state.working.surface;
+    work(&Ground {
+        surface,
+        closest: &ClosestPoint::new(surface),
+        samples: &state.detection.samples,
+    })
 }
 
 /// `goals` for a later state of a shape, `now`, with their places among the samples of the shape that was `found`.

@@ -1,7 +1,7 @@
 //! Axes of rotation, and the motions that carry two of them to one.
 
 use crate::geom::{Matrix3, Point, Vector, exp_rotation, sorted_eigen};
-use crate::transform::isometry::Isometry;
+use crate::transform::isometry::{Isometry, Plane};
 
 /// Lines whose directions differ by less than this sine count as parallel: where they come nearest is no place of theirs.
 const PARALLEL: f64 = 0.01;
@@ -63,6 +63,16 @@ impl Axis {
         Self {
             point: t.apply(&self.point),
             direction: t.rotate(&self.direction).normalize(),
+        }
+    }
+
+    /// The line nearest to it in `plane`.
+    pub fn within(&self, plane: &Plane) -> Self {
+        let n = plane.normal;
+        let across = self.direction - self.direction.dot(&n) * n;
+        Self {
+            point: self.point - plane.signed_distance(&self.point) * n,
+            direction: across.try_normalize(1e-9).unwrap_or(self.direction),
         }
     }
 
@@ -208,6 +218,10 @@ mod tests {
             );
         }
         assert_eq!(Axis::of(&Isometry::identity()), None);
+        let plane = Plane::through(&Point::new(1.0, 2.0, 3.0), Vector::y());
+        let within = line.within(&plane);
+        assert!(plane.signed_distance(&within.point).abs() < 1e-12);
+        assert!(within.direction.y == 0.0 && (within.direction.norm() - 1.0).abs() < 1e-12);
     }
 
     /// A column that was bent by 40 degrees at a hinge: both halves come to lie on one axis, the hinge stays between them, and lengths

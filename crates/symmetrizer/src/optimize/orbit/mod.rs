@@ -9,6 +9,7 @@ pub mod contract;
 pub mod freedom;
 pub mod goal;
 mod ground;
+pub mod joint;
 pub mod means;
 pub mod merge;
 pub mod rounds;
@@ -16,6 +17,7 @@ pub mod schedule;
 mod slides;
 
 pub use goal::{Goal, Link, Orbit};
-pub use merge::{jointed, merge};
+pub use joint::{Parts, jointed};
+pub use merge::merge;
 pub use rounds::apart;
 pub use schedule::orbits;
