@@ -16,10 +16,10 @@ pub struct OptimizeParams {
     pub contract_steps: usize,
     /// Steps of one merge at the most. 40, ours.
     pub merge_steps: usize,
-    /// Two clusters are merged when their mirrors are this close, rms displacement over both
+    /// Two clusters are merged when their mirrors, or smallest rotations, are this close, rms displacement over both
     /// supports, fraction of L. 0.01, ours.
     pub merged_distance: f64,
-    /// Largest angle in degrees between mirrors that are merged. 65, ours (the bunny's
+    /// Largest angle in degrees between mirrors, or axes, that are merged. 65, ours (the bunny's
     /// are 55 apart).
     pub merge_angle: f64,
     /// Clusters lower than this share of the highest are left alone. 0.12, ours: a bunny of 12,000

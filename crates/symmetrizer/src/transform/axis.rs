@@ -1,4 +1,5 @@
-//! Axes of rotation, and the motions that carry two of them to one.
+//! Axes of rotation, and the motions that carry two of them to one (ours, `docs/decisions/0032-rotations-are-merged-at-a-hinge.md`).
+//! Lengths are in the unit of the points.
 
 use crate::geom::{Matrix3, Point, Vector, exp_rotation, sorted_eigen};
 use crate::transform::isometry::{Isometry, Plane};
@@ -162,7 +163,8 @@ impl Jointed {
         }
     }
 
-    /// The way of each part to the common axis: about its hinge, as a bend is undone. What lies between the parts is neither stretched nor pressed.
+    /// The way of each part to the common axis: about its hinge, along an arc, as a bend is undone. The length from part to part is that along
+    /// the bend: of the chord it would be less by the cosine of half of the angle.
     pub fn carries(&self) -> [Carry; 2] {
         let common = self.common();
         [0, 1].map(|k| {
