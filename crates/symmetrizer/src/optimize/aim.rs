@@ -21,6 +21,28 @@ pub(super) struct Aim {
     pub plane: Plane,
     /// Area-weighted mean distance of the mirrored vertices from the surface, over what may be changed.
     pub asymmetry: f64,
+    /// The face that each mirrored vertex is closest to.
+    faces: Vec<Option<u32>>,
+}
+
+/// The surface under a mirror.
+struct Mirrored<'a> {
+    surface: &'a Surface,
+    closest: &'a ClosestPoint,
+    mirror: Isometry,
+    /// A face at each vertex.
+    at: Vec<Option<u32>>,
+}
+
+/// What the mirror image of a vertex meets.
+#[derive(Default)]
+struct Met {
+    /// The face that it is closest to.
+    face: Option<u32>,
+    /// Its distance from the surface.
+    distance: f64,
+    /// Its partner there, where the contact means something.
+    partner: Option<Partner>,
 }
 
 /// A vertex's partner.
@@ -30,30 +52,45 @@ struct Partner {
 }
 
 impl Aim {
-    /// Of `surface` under `plane`, `closest` its closest points.
-    pub fn at(surface: &Surface, plane: Plane, closest: &ClosestPoint, changed: &Changed) -> Self {
+    /// Of `surface` under `plane`, `closest` its closest points; found sooner where there is an aim of shortly `before`.
+    pub fn at(
+        surface: &Surface,
+        plane: Plane,
+        closest: &ClosestPoint,
+        changed: &Changed,
+        before: Option<&Self>,
+    ) -> Self {
         let region = changed.region.as_deref();
-        let mirror = Isometry::mirror(&plane);
-        let found: Vec<(f64, Option<Partner>)> = (0..surface.positions.len())
+        let mirrored = Mirrored {
+            surface,
+            closest,
+            mirror: Isometry::mirror(&plane),
+            at: surface.faces_at_vertices(),
+        };
+        let found: Vec<Met> = (0..surface.positions.len())
             .into_par_iter()
             .map(|v| {
-                let (distance, mut partner) = partner(surface, closest, &mirror, v);
-                if let (Some(partner), Some(region)) = (&mut partner, region) {
-                    partner.confidence *= region[v];
+                let may = region.map_or(1.0, |region| region[v]);
+                if may == 0.0 {
+                    return Met::default();
                 }
-                (distance, partner)
+                let mut met = mirrored.met(v, before.and_then(|before| before.faces[v]));
+                if let Some(partner) = &mut met.partner {
+                    partner.confidence *= may;
+                }
+                met
             })
             .collect();
         let area = |v: usize| surface.vertex_areas[v] * region.map_or(1.0, |region| region[v]);
         let total: f64 = (0..found.len()).map(area).sum();
-        let weighted = found.iter().enumerate().map(|(v, (d, _))| d * area(v));
+        let weighted = (found.iter().enumerate()).map(|(v, met)| met.distance * area(v));
         let asymmetry = weighted.sum::<f64>() / total.max(f64::MIN_POSITIVE);
         let plane = refit(surface, &found, changed.ambient).unwrap_or(plane);
         let mirror = Isometry::mirror(&plane);
         let mut targets = vec![Vector::zeros(); found.len()];
         let mut confidence = vec![0.0; found.len()];
-        for (v, (_, partner)) in found.iter().enumerate() {
-            if let Some(q) = partner {
+        for (v, met) in found.iter().enumerate() {
+            if let Some(q) = &met.partner {
                 let n = surface.vertex_normals[v];
                 let (d_p, _) = displacements(&surface.positions[v], &q.point, &mirror);
                 targets[v] = n * n.dot(&d_p);
@@ -65,17 +102,18 @@ impl Aim {
             confidence,
             plane,
             asymmetry,
+            faces: found.iter().map(|met| met.face).collect(),
         }
     }
 }
 
 /// Appendix A over all vertices and their partners.
-fn refit(surface: &Surface, found: &[(f64, Option<Partner>)], ambient: Ambient) -> Option<Plane> {
+fn refit(surface: &Surface, found: &[Met], ambient: Ambient) -> Option<Plane> {
     let pairs: Vec<Correspondence> = found
         .iter()
         .enumerate()
-        .filter_map(|(v, (_, partner))| {
-            partner.as_ref().map(|q| Correspondence {
+        .filter_map(|(v, met)| {
+            met.partner.as_ref().map(|q| Correspondence {
                 p: surface.positions[v],
                 q: q.point,
                 weight: q.confidence * surface.vertex_areas[v],
@@ -85,56 +123,50 @@ fn refit(surface: &Surface, found: &[(f64, Option<Partner>)], ambient: Ambient) 
     optimal_mirror(&pairs, ambient).map(|fit| fit.plane)
 }
 
-/// The distance of the mirror image of vertex `v` from the surface, and its partner there where the
-/// contact means something.
-fn partner(
-    surface: &Surface,
-    closest: &ClosestPoint,
-    mirror: &Isometry,
-    v: usize,
-) -> (f64, Option<Partner>) {
-    let image = mirror.apply(&surface.positions[v]);
-    let normal = mirror.rotate(&surface.vertex_normals[v]);
-    let nearest = closest.nearest(&image, f64::INFINITY);
-    let distance = nearest.map_or(0.0, |hit| hit.distance);
-    let facing = |hit: &Hit| surface.face_normals[hit.at.face as usize].dot(&normal);
-    let hit = match nearest {
-        Some(hit) if facing(&hit) >= MIN_COS => Some(hit),
-        _ => closest.nearest_facing(&image, &normal, MIN_COS, REACH),
-    };
-    let partner = hit.filter(|hit| hit.distance < REACH).and_then(|hit| {
-        let away = image - hit.point;
-        // Sideways contact means the image lies beyond a boundary or a fold.
-        if away.dot(&normal).abs() < 0.5 * hit.distance && hit.distance > 1e-3 {
-            return None;
+impl Mirrored<'_> {
+    /// What the image of vertex `v` meets, likely near the face `guess`.
+    fn met(&self, v: usize, guess: Option<u32>) -> Met {
+        let (surface, closest) = (self.surface, self.closest);
+        let image = self.mirror.apply(&surface.positions[v]);
+        let normal = self.mirror.rotate(&surface.vertex_normals[v]);
+        let nearest = closest.nearest_from(&image, f64::INFINITY, guess);
+        let facing = |hit: &Hit| surface.face_normals[hit.at.face as usize].dot(&normal);
+        let hit = match nearest {
+            Some(hit) if facing(&hit) >= MIN_COS => Some(hit),
+            _ => closest.nearest_facing(&image, &normal, MIN_COS, REACH),
+        };
+        let partner = hit.filter(|hit| hit.distance < REACH).and_then(|hit| {
+            let away = image - hit.point;
+            // Sideways contact means the image lies beyond a boundary or a fold.
+            if away.dot(&normal).abs() < 0.5 * hit.distance && hit.distance > 1e-3 {
+                return None;
+            }
+            let near = 1.0 - (hit.distance / REACH).powi(2);
+            Some(Partner {
+                point: curved(surface, &hit),
+                confidence: facing(&hit).powi(2) * near * near * self.mutual(v, &hit),
+            })
+        });
+        Met {
+            face: nearest.map(|hit| hit.at.face),
+            distance: nearest.map_or(0.0, |hit| hit.distance),
+            partner,
         }
-        let near = 1.0 - (hit.distance / REACH).powi(2);
-        let mutual = mutual(surface, closest, mirror, v, &hit);
-        Some(Partner {
-            point: curved(surface, &hit),
-            confidence: facing(&hit).powi(2) * near * near * mutual,
-        })
-    });
-    (distance, partner)
-}
+    }
 
-/// 1 where the partner's own closest point is vertex `v` again, 0 where it is elsewhere: a finger that
-/// is drawn to its neighbour's image is not drawn back.
-fn mutual(
-    surface: &Surface,
-    closest: &ClosestPoint,
-    mirror: &Isometry,
-    v: usize,
-    hit: &Hit,
-) -> f64 {
-    let x = &surface.positions[v];
-    let normal = mirror.rotate(&surface.normal(&hit.at));
-    let back = closest.nearest_facing(&mirror.apply(&hit.point), &normal, MIN_COS, REACH);
-    back.map_or(0.0, |back| {
-        let missed = (back.point - x).norm() / (hit.distance + 0.01);
-        let s = (1.0 - missed).clamp(0.0, 1.0);
-        1.0 - (1.0 - s).powi(4)
-    })
+    /// 1 where the partner's own closest point is vertex `v` again, 0 where it is elsewhere: a finger that
+    /// is drawn to its neighbour's image is not drawn back.
+    fn mutual(&self, v: usize, hit: &Hit) -> f64 {
+        let x = &self.surface.positions[v];
+        let image = self.mirror.apply(&hit.point);
+        let normal = self.mirror.rotate(&self.surface.normal(&hit.at));
+        let back = (self.closest).nearest_facing_from(&image, &normal, MIN_COS, REACH, self.at[v]);
+        back.map_or(0.0, |back| {
+            let missed = (back.point - x).norm() / (hit.distance + 0.01);
+            let s = (1.0 - missed).clamp(0.0, 1.0);
+            1.0 - (1.0 - s).powi(4)
+        })
+    }
 }
 
 /// Partners face the mirrored normal at least this well.

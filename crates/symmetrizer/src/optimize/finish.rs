@@ -85,7 +85,7 @@ pub fn finish(
     if undone > 0.0 {
         let seen = full.map_or_else(|| now.clone(), |f| f.following(&now));
         let closest = ClosestPoint::new(&seen);
-        rounds.note(&Aim::at(&seen, rounds.plane, &closest, &changed));
+        rounds.note(&Aim::at(&seen, rounds.plane, &closest, &changed, None));
     }
     Ok(Finished {
         undone,

@@ -158,7 +158,7 @@ impl<'a> Cloth<'a> {
         Ok(Self {
             field: field?,
             now: surface.clone(),
-            aim: Aim::at(surface, plane, &closest, changed),
+            aim: Aim::at(surface, plane, &closest, changed, None),
             closest,
             changed,
         })
@@ -176,7 +176,14 @@ impl<'a> Cloth<'a> {
         let moved = moved.map(|(x, u)| x + u * fraction).collect();
         let next = self.now.with_positions(moved);
         self.closest.follow(&next);
-        let aim = Aim::at(&next, self.aim.plane, &self.closest, self.changed);
+        let before = &self.aim;
+        let aim = Aim::at(
+            &next,
+            before.plane,
+            &self.closest,
+            self.changed,
+            Some(before),
+        );
         (next, aim)
     }
 }

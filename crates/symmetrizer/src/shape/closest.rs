@@ -49,7 +49,18 @@ impl ClosestPoint {
 
     /// The closest point within `max_distance`, on any face.
     pub fn nearest(&self, query: &Point, max_distance: f64) -> Option<Hit> {
-        self.search(query, max_distance, |_| true)
+        self.nearest_from(query, max_distance, None)
+    }
+
+    /// The same, found sooner where the answer is near the face `guess`.
+    pub fn nearest_from(
+        &self,
+        query: &Point,
+        max_distance: f64,
+        guess: Option<u32>,
+    ) -> Option<Hit> {
+        let within = guess.map_or(max_distance, |face| self.at_most(face, query, max_distance));
+        self.search(query, within, |_| true)
     }
 
     /// The closest point within `max_distance` among faces whose normal makes an angle with
@@ -74,14 +85,18 @@ impl ClosestPoint {
         guess: Option<u32>,
     ) -> Option<Hit> {
         let faces = |face: u32| self.face_normals[face as usize].dot(normal) >= min_cos;
-        let q = to_glam(query);
-        let within = guess.filter(|&face| faces(face)).map(|face| {
-            let there = self.tree.triangle(face).project_local_point(q, false);
-            // A little more, in working units, so that of faces at one distance the same one is found as without a guess.
-            (there.point - q).length() * (1.0 + 1e-9) + ROUNDING
-        });
-        let within = within.map_or(max_distance, |d| d.min(max_distance));
+        let guess = guess.filter(|&face| faces(face));
+        let within = guess.map_or(max_distance, |face| self.at_most(face, query, max_distance));
         self.search(query, within, faces)
+    }
+
+    /// How far the closest point is at the most where `face` may be hit.
+    fn at_most(&self, face: u32, query: &Point, max_distance: f64) -> f64 {
+        let q = to_glam(query);
+        let there = self.tree.triangle(face).project_local_point(q, false);
+        // A little more, in working units, so that of faces at one distance the same one is found as without a guess.
+        let distance = (there.point - q).length() * (1.0 + 1e-9) + ROUNDING;
+        distance.min(max_distance)
     }
 
     fn search(
@@ -169,10 +184,12 @@ mod tests {
             // On the surface, at a corner, and off it.
             for x in [centre, a, centre + 0.01 * normal] {
                 let alone = closest.nearest_facing(&x, &normal, 0.75, 0.02);
+                let any = closest.nearest(&x, f64::INFINITY);
                 found += u32::from(alone.is_some());
                 for guess in [face, (face + 1) % faces, (face + faces / 2) % faces] {
                     let guessed = closest.nearest_facing_from(&x, &normal, 0.75, 0.02, Some(guess));
                     assert_eq!(alone, guessed);
+                    assert_eq!(any, closest.nearest_from(&x, f64::INFINITY, Some(guess)));
                 }
             }
         }

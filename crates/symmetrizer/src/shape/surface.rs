@@ -130,6 +130,15 @@ impl Surface {
         sides
     }
 
+    /// One of the faces at each vertex, where it has any.
+    pub fn faces_at_vertices(&self) -> Vec<Option<u32>> {
+        let mut at = vec![None; self.positions.len()];
+        for (face, corners) in (0..).zip(self.triangles.iter()) {
+            corners.iter().for_each(|&v| at[v as usize] = Some(face));
+        }
+        at
+    }
+
     /// For each vertex those next to it.
     pub fn next_to_vertices(&self) -> Vec<Vec<u32>> {
         let mut next = vec![Vec::new(); self.positions.len()];
