@@ -119,27 +119,17 @@ fn the_pose_and_the_scale_do_not_matter() {
 }
 
 #[test]
-fn no_run_leaves_a_shape_tangled_or_less_symmetric() {
-    // A hind leg and the tail of the one have no counterpart; of the other only the head is like its mirror image.
-    if let Some(path) = model("3d/dragon.ply") {
-        let done = run(&load(&path));
-        let result = done.report.result.as_ref().expect("a result");
-        assert!(result.asymmetry.mean <= 0.6, "{}", result.asymmetry.mean);
-        let d = &result.distortion;
-        assert_eq!(d.inverted_faces, 0);
-        assert!(d.new_crossings <= 64, "{}", d.new_crossings);
-        assert!(d.curvature_correlation.expect("curved") >= 0.98);
-        assert_eq!(done.report.warnings.len(), 1, "that a part is left");
-    }
-    if let Some(path) = model("3d/bull.off") {
-        let mesh = load(&path);
-        let done = run(&mesh);
-        let before = done.report.input.shape.asymmetry.as_ref();
-        let before = before.expect("measured").mean;
-        let result = done.report.result.as_ref().expect("a result");
-        assert!(result.asymmetry.mean <= before);
-        if done.shape.positions == mesh.positions {
-            assert!(!done.report.warnings.is_empty(), "that it is left");
-        }
-    }
+fn the_dragon_is_not_left_tangled() {
+    // A hind leg and the tail have no counterpart.
+    let Some(path) = model("3d/dragon.ply") else {
+        return;
+    };
+    let done = run(&load(&path));
+    let result = done.report.result.as_ref().expect("a result");
+    assert!(result.asymmetry.mean <= 0.6, "{}", result.asymmetry.mean);
+    let d = &result.distortion;
+    assert_eq!(d.inverted_faces, 0);
+    assert!(d.new_crossings <= 64, "{}", d.new_crossings);
+    assert!(d.curvature_correlation.expect("curved") >= 0.98);
+    assert_eq!(done.report.warnings.len(), 1, "that a part is left");
 }
