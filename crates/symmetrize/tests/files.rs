@@ -177,8 +177,15 @@ fn the_tables_hold_every_file() {
     }
 }
 
-/// Runs on a file, on one thread, because two files are worked on at a time. Bends are left, which have tests of their own and
-/// would take most of the time.
+/// Files whose bends are left: to look for them again and again would take a third of the time of all files.
+const NOT_FOR_BENDS: [&str; 4] = [
+    "busted.stl",
+    "elephant-with-holes.off",
+    "polygonfaces.obj",
+    "spot_single_view_scan.ply",
+];
+
+/// Runs on a file with the defaults, on one thread, because two files are worked on at a time.
 fn run(path: &str, comes: Comes) -> Result<(), String> {
     let desk = Desk::new();
     let extension = Path::new(path).extension().unwrap().to_str().unwrap();
@@ -187,7 +194,7 @@ fn run(path: &str, comes: Comes) -> Result<(), String> {
         "xyz" | "bin" => "out.ply".to_owned(),
         other => format!("out.{other}"),
     };
-    let args = [
+    let mut args = vec![
         "run",
         path,
         "-o",
@@ -196,12 +203,14 @@ fn run(path: &str, comes: Comes) -> Result<(), String> {
         "r.json",
         "--threads",
         "1",
-        "--no-straighten",
     ];
+    let name = Path::new(path).file_name().unwrap().to_str().unwrap();
+    if NOT_FOR_BENDS.contains(&name) {
+        args.push("--no-straighten");
+    }
     let done = desk.symmetrize(&args).output().unwrap();
     let said = String::from_utf8_lossy(&done.stderr).into_owned();
     let written = desk.path(&output).exists();
-    let name = Path::new(path).file_name().unwrap().to_str().unwrap();
     let as_expected = match comes {
         Out => done.status.code() == Some(0) && written,
         Asymmetric => done.status.code() == Some(1) && !written,

@@ -21,7 +21,7 @@ pub(super) struct Aim {
     pub plane: Plane,
     /// Area-weighted mean distance of the mirrored vertices from the surface, over what may be changed.
     pub asymmetry: f64,
-    /// The face that each mirrored vertex is closest to.
+    /// The face that each mirrored vertex is closest to, where that was asked.
     faces: Vec<Option<u32>>,
 }
 
@@ -34,12 +34,12 @@ struct Mirrored<'a> {
     at: Vec<Option<u32>>,
 }
 
-/// What the mirror image of a vertex meets.
+/// The mirror image of a vertex beside the surface.
 #[derive(Default)]
-struct Met {
+struct Image {
     /// The face that it is closest to.
     face: Option<u32>,
-    /// Its distance from the surface.
+    /// Its distance from the surface, fraction of L.
     distance: f64,
     /// Its partner there, where the contact means something.
     partner: Option<Partner>,
@@ -52,7 +52,8 @@ struct Partner {
 }
 
 impl Aim {
-    /// Of `surface` under `plane`, `closest` its closest points; found sooner where there is an aim of shortly `before`.
+    /// Of `surface` under `plane`, `closest` its closest points; found sooner, and the same, where there is an aim of the same
+    /// triangles shortly `before`.
     pub fn at(
         surface: &Surface,
         plane: Plane,
@@ -67,30 +68,31 @@ impl Aim {
             mirror: Isometry::mirror(&plane),
             at: surface.faces_at_vertices(),
         };
-        let found: Vec<Met> = (0..surface.positions.len())
+        let found: Vec<Image> = (0..surface.positions.len())
             .into_par_iter()
             .map(|v| {
                 let may = region.map_or(1.0, |region| region[v]);
+                // What may not be changed has no weight in anything below.
                 if may == 0.0 {
-                    return Met::default();
+                    return Image::default();
                 }
-                let mut met = mirrored.met(v, before.and_then(|before| before.faces[v]));
-                if let Some(partner) = &mut met.partner {
+                let mut image = mirrored.image(v, before.and_then(|before| before.faces[v]));
+                if let Some(partner) = &mut image.partner {
                     partner.confidence *= may;
                 }
-                met
+                image
             })
             .collect();
         let area = |v: usize| surface.vertex_areas[v] * region.map_or(1.0, |region| region[v]);
         let total: f64 = (0..found.len()).map(area).sum();
-        let weighted = (found.iter().enumerate()).map(|(v, met)| met.distance * area(v));
+        let weighted = (found.iter().enumerate()).map(|(v, image)| image.distance * area(v));
         let asymmetry = weighted.sum::<f64>() / total.max(f64::MIN_POSITIVE);
         let plane = refit(surface, &found, changed.ambient).unwrap_or(plane);
         let mirror = Isometry::mirror(&plane);
         let mut targets = vec![Vector::zeros(); found.len()];
         let mut confidence = vec![0.0; found.len()];
-        for (v, met) in found.iter().enumerate() {
-            if let Some(q) = &met.partner {
+        for (v, image) in found.iter().enumerate() {
+            if let Some(q) = &image.partner {
                 let n = surface.vertex_normals[v];
                 let (d_p, _) = displacements(&surface.positions[v], &q.point, &mirror);
                 targets[v] = n * n.dot(&d_p);
@@ -102,18 +104,18 @@ impl Aim {
             confidence,
             plane,
             asymmetry,
-            faces: found.iter().map(|met| met.face).collect(),
+            faces: found.iter().map(|image| image.face).collect(),
         }
     }
 }
 
 /// Appendix A over all vertices and their partners.
-fn refit(surface: &Surface, found: &[Met], ambient: Ambient) -> Option<Plane> {
+fn refit(surface: &Surface, found: &[Image], ambient: Ambient) -> Option<Plane> {
     let pairs: Vec<Correspondence> = found
         .iter()
         .enumerate()
-        .filter_map(|(v, met)| {
-            met.partner.as_ref().map(|q| Correspondence {
+        .filter_map(|(v, image)| {
+            image.partner.as_ref().map(|q| Correspondence {
                 p: surface.positions[v],
                 q: q.point,
                 weight: q.confidence * surface.vertex_areas[v],
@@ -124,19 +126,19 @@ fn refit(surface: &Surface, found: &[Met], ambient: Ambient) -> Option<Plane> {
 }
 
 impl Mirrored<'_> {
-    /// What the image of vertex `v` meets, likely near the face `guess`.
-    fn met(&self, v: usize, guess: Option<u32>) -> Met {
+    /// Of vertex `v`, likely near the face `guess`.
+    fn image(&self, v: usize, guess: Option<u32>) -> Image {
         let (surface, closest) = (self.surface, self.closest);
-        let image = self.mirror.apply(&surface.positions[v]);
+        let x = self.mirror.apply(&surface.positions[v]);
         let normal = self.mirror.rotate(&surface.vertex_normals[v]);
-        let nearest = closest.nearest_from(&image, f64::INFINITY, guess);
+        let nearest = closest.nearest_from(&x, f64::INFINITY, guess);
         let facing = |hit: &Hit| surface.face_normals[hit.at.face as usize].dot(&normal);
         let hit = match nearest {
             Some(hit) if facing(&hit) >= MIN_COS => Some(hit),
-            _ => closest.nearest_facing(&image, &normal, MIN_COS, REACH),
+            _ => closest.nearest_facing(&x, &normal, MIN_COS, REACH),
         };
         let partner = hit.filter(|hit| hit.distance < REACH).and_then(|hit| {
-            let away = image - hit.point;
+            let away = x - hit.point;
             // Sideways contact means the image lies beyond a boundary or a fold.
             if away.dot(&normal).abs() < 0.5 * hit.distance && hit.distance > 1e-3 {
                 return None;
@@ -147,7 +149,7 @@ impl Mirrored<'_> {
                 confidence: facing(&hit).powi(2) * near * near * self.mutual(v, &hit),
             })
         });
-        Met {
+        Image {
             face: nearest.map(|hit| hit.at.face),
             distance: nearest.map_or(0.0, |hit| hit.distance),
             partner,
