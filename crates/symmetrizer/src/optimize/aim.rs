@@ -3,9 +3,10 @@
 use rayon::prelude::*;
 
 use crate::geom::{Point, Vector};
+use crate::optimize::balance::Copy;
 use crate::optimize::contact::curved;
 use crate::optimize::rounds::Changed;
-use crate::shape::{ClosestPoint, Hit, Surface};
+use crate::shape::{ClosestPoint, Hit, Surface, SurfacePoint};
 use crate::transform::{Ambient, Correspondence, Isometry, Plane, displacements, optimal_mirror};
 
 /// Closest points that draw a vertex lie within this distance, fraction of L.
@@ -17,6 +18,8 @@ pub(super) struct Aim {
     pub targets: Vec<Vector>,
     /// Confidence in each, 0 for none.
     pub confidence: Vec<f64>,
+    /// The partner of each, where it has one.
+    pub copies: Vec<Vec<Copy>>,
     /// The mirror refitted to the pairs.
     pub plane: Plane,
     /// Area-weighted mean distance of the mirrored vertices from the surface, over what may be changed.
@@ -47,6 +50,7 @@ struct Image {
 
 /// A vertex's partner.
 struct Partner {
+    at: SurfacePoint,
     point: Point,
     confidence: f64,
 }
@@ -91,17 +95,20 @@ impl Aim {
         let mirror = Isometry::mirror(&plane);
         let mut targets = vec![Vector::zeros(); found.len()];
         let mut confidence = vec![0.0; found.len()];
+        let mut copies = vec![Vec::new(); found.len()];
         for (v, image) in found.iter().enumerate() {
             if let Some(q) = &image.partner {
                 let n = surface.vertex_normals[v];
                 let (d_p, _) = displacements(&surface.positions[v], &q.point, &mirror);
                 targets[v] = n * n.dot(&d_p);
                 confidence[v] = q.confidence;
+                copies[v].push((q.at, 1.0));
             }
         }
         Self {
             targets,
             confidence,
+            copies,
             plane,
             asymmetry,
             faces: found.iter().map(|image| image.face).collect(),
@@ -145,6 +152,7 @@ impl Mirrored<'_> {
             }
             let near = 1.0 - (hit.distance / REACH).powi(2);
             Some(Partner {
+                at: hit.at,
                 point: curved(surface, &hit),
                 confidence: facing(&hit).powi(2) * near * near * self.mutual(v, &hit),
             })

@@ -1,6 +1,7 @@
 //! Section 4: samples glide, clusters contract, clusters merge, the rest follows.
 
 mod aim;
+mod balance;
 mod contact;
 pub mod contract;
 pub mod ease;

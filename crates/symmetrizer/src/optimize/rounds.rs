@@ -8,6 +8,7 @@ use crate::error::{Error, Result};
 use crate::geom::Vector;
 use crate::optimize::OptimizeParams;
 use crate::optimize::aim::Aim;
+use crate::optimize::balance::balanced;
 use crate::shape::{ClosestPoint, Surface};
 use crate::transform::{Ambient, Plane};
 
@@ -166,8 +167,13 @@ impl<'a> Cloth<'a> {
 
     /// The displacements of a round of smoothing length `lambda`.
     fn moves(&mut self, lambda: f64) -> std::result::Result<Vec<Vector>, SolveError> {
-        self.field
-            .solve(&self.aim.targets, &self.aim.confidence, lambda)
+        let aim = &self.aim;
+        let moves = self.field.solve(&aim.targets, &aim.confidence, lambda)?;
+        // Beside what is still bent partners are not each other's, and what they have in common may be needed.
+        Ok(match self.changed.region {
+            Some(_) => moves,
+            None => balanced(&self.now, &moves, &aim.copies, &aim.confidence),
+        })
     }
 
     /// With `fraction` of the displacements `moves`.

@@ -3,11 +3,12 @@
 use rayon::prelude::*;
 
 use crate::geom::{Point, Vector};
+use crate::optimize::balance::Copy;
 use crate::optimize::contact::curved;
 use crate::optimize::orbit::freedom::{Contact, Equations};
 use crate::optimize::orbit::goal::{Goal, Link};
 use crate::optimize::orbit::ground::Member;
-use crate::shape::{ClosestPoint, Surface};
+use crate::shape::{ClosestPoint, Hit, Surface};
 use crate::transform::Ambient;
 
 /// Copies face the way of the place's image to within this cosine.
@@ -36,6 +37,8 @@ pub struct Scene<'a> {
 pub struct Means {
     /// For each point the way to the mean of its copies.
     pub targets: Vec<Vector>,
+    /// The copies of each that were found.
+    pub copies: Vec<Vec<Copy>>,
     /// The share of its copies that were found.
     pub confidence: Vec<f64>,
     /// Its distance from the mean of all that were found, whatever their weight: equation 1, which of two copies takes
@@ -134,6 +137,7 @@ impl Means {
         let ways = || parts.iter().flat_map(|(ways, _)| ways);
         Self {
             targets: ways().map(|w| w.target).collect(),
+            copies: ways().map(|w| w.copies.clone()).collect(),
             confidence: ways().map(|w| w.confidence).collect(),
             halves: ways().map(|w| w.half).collect(),
             tallies,
@@ -172,6 +176,7 @@ fn in_turn(links: Vec<Link>, round: usize) -> Vec<Link> {
 /// The way of a point: see [`Means`].
 struct Way {
     target: Vector,
+    copies: Vec<Copy>,
     confidence: f64,
     half: f64,
 }
@@ -187,15 +192,17 @@ fn way(
     let (_, n, area) = scene.points[v];
     let (mut sum, mut found, mut all) = (0.0, 0.0, 0.0);
     let (mut plain, mut count) = (0.0, 0.0);
+    let mut places = Vec::new();
     for m in &scene.members[v] {
         let (goal, tally) = (&goals[m.goal], &mut tallies[m.goal]);
         let (mut own, mut copies) = (0.0, 0.0);
         for link in &links[m.goal][m.place] {
             all += if goal.is_met { 0.0 } else { m.weight };
             tally.all += m.weight * area;
-            let Some((contact, distance)) = contact(scene, goal, link, v) else {
+            let Some((contact, hit)) = contact(scene, goal, link, v) else {
                 continue;
             };
+            let distance = hit.distance;
             let here = m.weight * area;
             for (sum, x) in tally
                 .found
@@ -216,6 +223,7 @@ fn way(
             if !goal.is_met {
                 sum += weight * back;
                 found += weight;
+                places.push((hit.at, weight));
             }
         }
         let half = own / (1.0 + copies);
@@ -229,13 +237,14 @@ fn way(
     }
     Way {
         target: n * (sum / (1.0 + found)),
+        copies: places,
         confidence: found / f64::max(all, 1e-9),
         half: plain / (1.0 + count),
     }
 }
 
-/// The contact of a point's image under a link, and its distance from the surface.
-fn contact(scene: &Scene<'_>, goal: &Goal, link: &Link, v: usize) -> Option<(Contact, f64)> {
+/// The contact of a point's image under a link, and the closest point of the surface.
+fn contact(scene: &Scene<'_>, goal: &Goal, link: &Link, v: usize) -> Option<(Contact, Hit)> {
     let surface = scene.surface;
     let (x, normal, _) = scene.points[v];
     let normal = link.t.rotate(&normal);
@@ -260,5 +269,5 @@ fn contact(scene: &Scene<'_>, goal: &Goal, link: &Link, v: usize) -> Option<(Con
         gap: n.dot(&(place - y)),
         weight: n.dot(&normal).max(0.0).powi(2) * near * near,
     };
-    Some((contact, hit.distance))
+    Some((contact, hit))
 }

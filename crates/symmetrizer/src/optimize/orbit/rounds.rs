@@ -9,6 +9,7 @@ use crate::deform::smooth::SmoothField;
 use crate::deform::{Deformer, carry};
 use crate::error::{Error, Result};
 use crate::geom::{Point, Vector};
+use crate::optimize::balance::balanced;
 use crate::optimize::contact::SMOOTH_COS;
 use crate::optimize::orbit::goal::Goal;
 use crate::optimize::orbit::ground::{Member, members};
@@ -234,10 +235,11 @@ impl Cloth {
 
     /// One round; false, and nothing changed, where it gained nothing.
     fn round(&mut self, field: &mut SmoothField) -> Result<bool> {
-        let means = &self.means;
+        let (targets, confidence) = (&self.means.targets, &self.means.confidence);
         let moves = field
-            .solve(&means.targets, &means.confidence, self.length)
+            .solve(targets, confidence, self.length)
             .map_err(failure)?;
+        let moves = balanced(&self.now, &moves, &self.means.copies, confidence);
         let moved = self.now.positions.iter().zip(&moves).map(|(x, u)| x + u);
         let next = self.now.with_positions(moved.collect());
         let next = next.with_positions(self.without_drift(&next));
