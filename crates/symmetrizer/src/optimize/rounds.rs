@@ -170,9 +170,10 @@ impl<'a> Cloth<'a> {
         let aim = &self.aim;
         let moves = self.field.solve(&aim.targets, &aim.confidence, lambda)?;
         // Beside what is still bent partners are not each other's, and what they have in common may be needed.
-        Ok(match self.changed.region {
-            Some(_) => moves,
-            None => balanced(&self.now, &moves, &aim.copies, &aim.confidence),
+        let is_bent = self.changed.region.is_some();
+        Ok(match self.changed.ambient {
+            Ambient::Space if !is_bent => balanced(&self.now, &moves, &aim.copies, &aim.confidence),
+            _ => moves,
         })
     }
 

@@ -239,7 +239,10 @@ impl Cloth {
         let moves = field
             .solve(targets, confidence, self.length)
             .map_err(failure)?;
-        let moves = balanced(&self.now, &moves, &self.means.copies, confidence);
+        let moves = match self.ambient() {
+            Ambient::Space => balanced(&self.now, &moves, &self.means.copies, confidence),
+            Ambient::Plane => moves,
+        };
         let moved = self.now.positions.iter().zip(&moves).map(|(x, u)| x + u);
         let next = self.now.with_positions(moved.collect());
         let next = next.with_positions(self.without_drift(&next));
@@ -262,7 +265,7 @@ impl Cloth {
     /// The vertices of `next` slid over it towards where they began: along a smooth surface nothing is to be gained.
     /// Corners of an outline are what its form is.
     fn without_drift(&self, next: &Surface) -> Vec<Point> {
-        if self.goals.iter().any(|g| g.ambient == Ambient::Plane) {
+        if self.ambient() == Ambient::Plane {
             return next.positions.clone();
         }
         let smooth = next.smooth_vertices(SMOOTH_COS);
@@ -291,6 +294,14 @@ impl Cloth {
             next = next.with_positions(positions);
         }
         next
+    }
+
+    /// Where the shape lives.
+    fn ambient(&self) -> Ambient {
+        match self.goals.iter().any(|g| g.ambient == Ambient::Plane) {
+            true => Ambient::Plane,
+            false => Ambient::Space,
+        }
     }
 
     fn rms(&self) -> Vec<f64> {
