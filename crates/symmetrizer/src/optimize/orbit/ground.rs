@@ -64,8 +64,12 @@ pub fn members(surface: &Surface, samples: &Samples, goals: &[Goal]) -> Vec<Vec<
                 for (place, flags) in flags.iter().enumerate() {
                     let of: f64 = near.iter().filter(|(i, _)| flags[*i]).map(|n| n.1).sum();
                     let whole = goals[goal].is_of_the_whole() && goals[goal].places.len() == 1;
-                    // Half of the samples around a vertex at the rim are inside.
-                    let weight = if whole { 1.0 } else { (2.0 * of).min(1.0) };
+                    // Half of the samples around a vertex at the rim are inside; what copies stand on differs there.
+                    let weight = if whole {
+                        1.0
+                    } else {
+                        (2.0 * of - 1.0).max(0.0)
+                    };
                     if weight > 1e-3 {
                         members.push(Member {
                             goal,
