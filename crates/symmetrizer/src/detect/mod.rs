@@ -14,6 +14,7 @@ mod search;
 mod surroundings;
 mod turns;
 pub mod wanted;
+mod whole;
 
 pub use cloud::Cloud;
 pub use groups::Group;
@@ -304,6 +305,11 @@ fn looked(
         })?;
         ctx.stage("complete", |ctx| {
             complete::complete(surroundings, &mut looked.symmetries, &drifting, ctx)
+        })?;
+    }
+    if samples.ambient == Ambient::Space {
+        ctx.stage("whole", |ctx| {
+            whole::whole(surroundings, &looked.clouds, &mut looked.symmetries, ctx)
         })?;
     }
     Ok(looked)

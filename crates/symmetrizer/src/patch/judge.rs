@@ -244,7 +244,7 @@ pub fn mirror_of(ground: &Ground<'_>, pairs: &[PatchPair]) -> Option<MirrorFit> 
 /// The median, over the pairs, of the share of all samples that look more like the sample than what
 /// lies at its partner's place. Pairs across less than the widest curvature radius see the same
 /// ground from both sides and do not count.
-fn confusion(ground: &Ground<'_>, grown: &[PatchPair]) -> f64 {
+pub fn confusion(ground: &Ground<'_>, grown: &[PatchPair]) -> f64 {
     let list = &ground.samples.list;
     let places: Vec<[f64; 3]> = list.iter().map(|s| s.position.coords.into()).collect();
     let index = PointIndex::new(&places);
