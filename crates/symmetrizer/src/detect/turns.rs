@@ -155,6 +155,7 @@ impl<'a> Place<'a> {
             rms,
             confusion: 0.0,
             is_evident: true,
+            is_of_whole: false,
             doubt: rms / other,
             pairs,
         })

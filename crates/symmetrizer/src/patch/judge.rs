@@ -74,6 +74,7 @@ pub fn judge(
         confusion,
         doubt: verdict.filled + 2.0 * confusion,
         is_evident,
+        is_of_whole: false,
         pairs: grown.pairs,
         image,
     })

@@ -40,6 +40,8 @@ pub struct Symmetry {
     pub confusion: f64,
     /// Whether it stands by itself, or only because it follows from others.
     pub is_evident: bool,
+    /// Whether it is in the group of the whole surface.
+    pub is_of_whole: bool,
     /// What speaks against it, 0 for nothing: how evenly the residuals fill the tolerance, how little
     /// alike partners look, for a mirror how high its cluster would be by chance.
     pub doubt: f64,

@@ -28,7 +28,8 @@ pub fn point_groups(
         let here: Vec<usize> = order
             .iter()
             .copied()
-            .filter(|&k| !seen[k] && likeness(&grounds[first], &grounds[k]) > SAME_GROUND)
+            .filter(|&k| !seen[k] && symmetries[k].is_of_whole == symmetries[first].is_of_whole)
+            .filter(|&k| likeness(&grounds[first], &grounds[k]) > SAME_GROUND)
             .collect();
         for &k in &here {
             seen[k] = true;

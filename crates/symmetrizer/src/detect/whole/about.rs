@@ -27,8 +27,13 @@ pub struct Turn {
     pub step: Symmetry,
 }
 
-/// The turn of the highest order about an axis, which is fitted; `None` where none holds for the whole.
-pub fn turn(whole: &Whole<'_>, Suggested { axis, only_half }: &Suggested) -> Option<Turn> {
+/// The turn of the highest order about an axis, which is fitted; `None` where none holds for the whole, or where the highest that may is
+/// `known`.
+pub fn turn(
+    whole: &Whole<'_>,
+    Suggested { axis, only_half }: &Suggested,
+    known: &dyn Fn(&Isometry) -> bool,
+) -> Option<Turn> {
     let most = if *only_half { 2 } else { MOST };
     let within = |orders: Vec<u32>, bound: f64| {
         let turns = orders.iter().map(|&n| axis.rotation(TAU / f64::from(n)));
@@ -48,6 +53,10 @@ pub fn turn(whole: &Whole<'_>, Suggested { axis, only_half }: &Suggested) -> Opt
     let primes = within(primes, NEARLY * any);
     let orders = (2..=most).rev().filter(|&n| is_product(n, &primes));
     let orders = within(orders.collect(), NEARLY * any);
+    let highest = axis.rotation(TAU / f64::from(*orders.first()?));
+    if known(&highest) {
+        return None;
+    }
     orders.into_iter().find_map(|n| turn_of(whole, axis, n))
 }
 

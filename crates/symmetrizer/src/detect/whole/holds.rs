@@ -58,18 +58,28 @@ impl<'a> Whole<'a> {
         }
     }
 
-    /// The rms distance of images from the surface, those far away counting as [`FAR`], fraction of L.
+    /// The rms distance of images from the surface, those far away counting as [`FAR`], fraction of L; as some of the samples tell.
     pub fn missed(&self, t: &Isometry) -> f64 {
-        let ground = self.surroundings.ground;
-        let miss = |&s: &u32| {
-            let pair = touch_one(ground, t, s, FAR, FACING, None);
-            pair.map_or(FAR, |p| p.residual).powi(2)
-        };
-        let squares: f64 = self.compared.iter().map(miss).sum();
-        (squares / self.compared.len().max(1) as f64).sqrt()
+        root_mean(self.compared.iter().map(|&s| self.miss(t, s)))
     }
 
-    /// The same of each of several isometries.
+    /// The same of all samples.
+    pub fn missed_by_all(&self, t: &Isometry) -> f64 {
+        let count = self.surroundings.ground.samples.list.len() as u32;
+        let squares: Vec<f64> = (0..count)
+            .into_par_iter()
+            .map(|s| self.miss(t, s))
+            .collect();
+        root_mean(squares.into_iter())
+    }
+
+    /// The square of the distance of one image.
+    fn miss(&self, t: &Isometry, sample: u32) -> f64 {
+        let pair = touch_one(self.surroundings.ground, t, sample, FAR, FACING, None);
+        pair.map_or(FAR, |p| p.residual).powi(2)
+    }
+
+    /// What [`Whole::missed`] says of each of several isometries.
     pub fn all_missed(&self, isometries: &[Isometry]) -> Vec<f64> {
         isometries.par_iter().map(|t| self.missed(t)).collect()
     }
@@ -172,6 +182,7 @@ impl<'a> Whole<'a> {
             confusion,
             doubt,
             is_evident: true,
+            is_of_whole: false,
             pairs,
             image,
         })
@@ -194,4 +205,10 @@ impl<'a> Whole<'a> {
                 .fold(0.0, f64::max)
         })
     }
+}
+
+/// The root of the mean of squares.
+fn root_mean(squares: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = squares.len().max(1) as f64;
+    (squares.sum::<f64>() / count).sqrt()
 }
