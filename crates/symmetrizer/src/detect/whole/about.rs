@@ -36,11 +36,11 @@ pub fn turn(
 ) -> Option<Turn> {
     let most = if *only_half { 2 } else { MOST };
     let within = |orders: Vec<u32>, bound: f64| {
-        let turns = orders.iter().map(|&n| axis.rotation(TAU / f64::from(n)));
-        let missed = whole.all_missed(&turns.collect::<Vec<Isometry>>());
-        let both = orders.into_iter().zip(missed);
-        let near = both.filter(|(_, missed)| *missed <= bound);
-        near.map(|(n, _)| n).collect::<Vec<u32>>()
+        let turns = orders.iter().map(|&n| axis.rotation(wide(n)));
+        let near = whole.all_within(&turns.collect::<Vec<Isometry>>(), bound);
+        let both = orders.into_iter().zip(near);
+        both.filter_map(|(n, near)| near.then_some(n))
+            .collect::<Vec<u32>>()
     };
     let primes = within((2..=most).filter(|&n| is_prime(n)).collect(), NEARLY * FAR);
     if primes.is_empty() {
@@ -60,14 +60,24 @@ pub fn turn(
     orders.into_iter().find_map(|n| turn_of(whole, axis, n))
 }
 
+/// The angle nearest to half a round of which all turns of an order are multiples, radians: a small turn misses little of anything.
+fn wide(order: u32) -> f64 {
+    let steps = (1..=order / 2).rev().find(|&k| gcd(k, order) == 1);
+    f64::from(steps.unwrap_or(1)) * TAU / f64::from(order)
+}
+
+fn gcd(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { gcd(b, a % b) }
+}
+
 fn is_prime(n: u32) -> bool {
-    (2..n).all(|k| n % k != 0)
+    (2..n).all(|k| !n.is_multiple_of(k))
 }
 
 /// Whether `n` has no other factors than `primes`.
 fn is_product(n: u32, primes: &[u32]) -> bool {
     let rest = primes.iter().fold(n, |mut rest, p| {
-        while rest % p == 0 {
+        while rest.is_multiple_of(*p) {
             rest /= p;
         }
         rest

@@ -84,6 +84,12 @@ impl<'a> Whole<'a> {
         isometries.par_iter().map(|t| self.missed(t)).collect()
     }
 
+    /// Which of several isometries miss by no more than `bound`, fraction of L.
+    pub fn all_within(&self, isometries: &[Isometry], bound: f64) -> Vec<bool> {
+        let missed = self.all_missed(isometries).into_iter();
+        missed.map(|missed| missed <= bound).collect()
+    }
+
     /// The mean by which turns about `axis` by any angle miss, `after` which something else is done, fraction of L.
     pub fn any_missed(&self, axis: &Axis, after: &Isometry) -> f64 {
         let turns = (1..=ANGLES).map(|k| axis.rotation(f64::from(k) * ANY).after(after));
