@@ -10,7 +10,7 @@ use crate::transform::{Axis, Class, Isometry, Plane};
 
 /// Orders at the most.
 const MOST: u32 = 60;
-/// A turn about an axis that is not yet fitted may miss by this share of what any angle does,
+/// A turn about an axis that is not yet fitted may miss by this share of what any angle does.
 const NEARLY: f64 = 0.6;
 /// Rounds in which an axis is fitted, each with its tolerance, in units of that of mirrors.
 const ROUNDS: [f64; 5] = [3.0, 2.0, 1.5, 1.0, 1.0];
@@ -85,6 +85,7 @@ fn is_product(n: u32, primes: &[u32]) -> bool {
     rest == 1
 }
 
+/// The turns of one `order`, the axis fitted; `None` where they do not hold for the whole or hold no better than what is between them.
 fn turn_of(whole: &Whole<'_>, axis: &Axis, order: u32) -> Option<Turn> {
     let step = TAU / f64::from(order);
     // About half a turn tells best where the axis is, and is wrong by half a step where the order is.

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::detect::Cloud;
 use crate::detect::surroundings::Surroundings;
-use crate::geom::Point;
+use crate::geom::{Point, median};
 use crate::patch::ground::{contacts, image, touch, touch_one};
 use crate::patch::judge::confusion;
 use crate::patch::refine::{refine, weigh};
@@ -24,7 +24,7 @@ const ANY: f64 = 2.399_963;
 const ANGLES: u32 = 6;
 /// What any angle misses by at the least, fraction of L: a round shape has every turn, and so none of its own.
 pub const LEAST: f64 = 0.008;
-/// A turn misses by this share of what others about its axis do.
+/// A turn that is the shape's own misses by this share of what others about its axis do, at the most.
 pub const TELLING: f64 = 0.4;
 /// Largest rms residual, in units of the tolerance: a surface that passes by evenly fills it to .58.
 const FILLED: f64 = 0.3;
@@ -90,9 +90,9 @@ impl<'a> Whole<'a> {
         missed.map(|missed| missed <= bound).collect()
     }
 
-    /// The mean by which turns about `axis` by any angle miss, `after` which something else is done, fraction of L.
-    pub fn any_missed(&self, axis: &Axis, after: &Isometry) -> f64 {
-        let turns = (1..=ANGLES).map(|k| axis.rotation(f64::from(k) * ANY).after(after));
+    /// The mean by which turns about `axis` by any angle miss, each done after `first`, fraction of L.
+    pub fn any_missed(&self, axis: &Axis, first: &Isometry) -> f64 {
+        let turns = (1..=ANGLES).map(|k| axis.rotation(f64::from(k) * ANY).after(first));
         let turns: Vec<Isometry> = turns.collect();
         self.all_missed(&turns).iter().sum::<f64>() / f64::from(ANGLES)
     }
@@ -120,7 +120,7 @@ impl<'a> Whole<'a> {
             return *t;
         }
         let mut residuals: Vec<f64> = pairs.iter().map(|p| p.residual).collect();
-        let typical = crate::geom::median(&mut residuals).unwrap_or(0.0);
+        let typical = median(&mut residuals).unwrap_or(0.0);
         let mut contacts = contacts(self.surroundings.ground, &pairs);
         weigh(t, &mut contacts, TYPICAL * typical);
         refine(t, class, &contacts)
