@@ -10,6 +10,7 @@ pub mod groups;
 mod in_plane;
 mod mirrors;
 mod pass;
+mod roundness;
 mod search;
 mod surroundings;
 mod turns;
@@ -215,6 +216,7 @@ fn find(
         space: &space,
         describer,
         continuous: &continuous,
+        any_mirror: roundness::any_mirror(&ground),
         params,
     };
     let mut looked = looked(&surroundings, given.known, ctx)?;
@@ -225,11 +227,7 @@ fn find(
             arrange::arrange(&surroundings, &looked.symmetries)
         }
     };
-    let continuous = continuous
-        .iter()
-        .filter(|c| c.is_telling(&samples))
-        .cloned()
-        .collect();
+    let continuous = told(continuous.clone(), looked.round, &samples);
     Ok(Detection {
         clouds: looked.clouds,
         symmetries: looked.symmetries,
@@ -240,6 +238,21 @@ fn find(
         samples,
         space,
     })
+}
+
+/// The parts that slide along themselves which are worth telling: where the whole is `round`, that and what lies elsewhere.
+fn told(
+    mut parts: Vec<Continuous>,
+    round: Option<Continuous>,
+    samples: &Samples,
+) -> Vec<Continuous> {
+    if let Some(round) = round {
+        let within = |i: &u32| round.samples.binary_search(i).is_ok();
+        parts.retain(|c| !c.samples.iter().any(within));
+        parts.insert(0, round);
+    }
+    parts.retain(|c| c.is_telling(samples));
+    parts
 }
 
 /// Names symmetries by their number.
@@ -256,6 +269,8 @@ struct Looked {
     symmetries: Vec<Symmetry>,
     doubtful: Vec<Symmetry>,
     refused: Vec<Refusal>,
+    /// The whole as a surface of revolution.
+    round: Option<Continuous>,
 }
 
 /// Pairs, clusters and patches of each class that is wanted, and what follows from them; the votes of mirrors are those of a cloud that is
@@ -308,6 +323,17 @@ fn looked(
         })?;
     }
     if samples.ambient == Ambient::Space {
+        if params.wanted.continuous() && params.slip.is_some() {
+            looked.round = ctx.stage("round", |_| {
+                let Looked {
+                    clouds,
+                    symmetries,
+                    refused,
+                    ..
+                } = &mut looked;
+                Ok(whole::revolution(surroundings, clouds, symmetries, refused))
+            })?;
+        }
         ctx.stage("whole", |ctx| {
             whole::whole(surroundings, &looked.clouds, &mut looked.symmetries, ctx)
         })?;

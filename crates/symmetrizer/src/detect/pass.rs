@@ -72,6 +72,7 @@ impl Pass {
             let grown = grow_settled(ground, describer, &candidate, rest, &params.patch)
                 .and_then(|s| surroundings.more_than_sliding(s))
                 .and_then(|s| as_good(s, &found.symmetries, ground))
+                .map(|s| surroundings.weigh_against_any(s))
                 .map(|s| surroundings.weigh_against_chance(s, cluster, cloud, h, ctx));
             match grown {
                 Err(refusal) => found.refused.push(*refusal),

@@ -19,6 +19,8 @@ pub struct Surroundings<'a> {
     pub describer: &'a Describer<'a>,
     /// Parts that slide along themselves.
     pub continuous: &'a [Continuous],
+    /// How far the images of samples lie from the surface under any mirror, fraction of L (decision 0035).
+    pub any_mirror: f64,
     /// The parameters.
     pub params: &'a DetectParams,
 }
@@ -32,6 +34,9 @@ const MIN_ELSEWHERE: f64 = 0.5;
 /// and this must be so much of the whole surface.
 const MIN_LEFT: f64 = 0.03;
 
+/// A mirror that misses by this share of what any mirror does is in as much doubt as one that misses by the tolerance; ours.
+pub const SHARE_OF_ANY: f64 = 0.4;
+
 /// Shuffles of the votes that chance is estimated from.
 pub const SHUFFLES: usize = 4;
 
@@ -39,10 +44,18 @@ impl Surroundings<'_> {
     /// Refuses a symmetry of which too little is left when parts that have it by sliding along
     /// themselves are not counted: a vase has all planes through its axis, which is one symmetry.
     pub fn more_than_sliding(&self, s: Symmetry) -> std::result::Result<Symmetry, Box<Refusal>> {
+        self.more_than(self.continuous, s)
+    }
+
+    /// The same of the parts `sliding`.
+    pub fn more_than(
+        &self,
+        sliding: &[Continuous],
+        s: Symmetry,
+    ) -> std::result::Result<Symmetry, Box<Refusal>> {
         let samples = self.ground.samples;
         let mut elsewhere = vec![true; samples.list.len()];
-        let implied = self
-            .continuous
+        let implied = sliding
             .iter()
             .filter(|c| c.implies(&s.q_from_p, samples, IMPLIED));
         for part in implied {
@@ -67,6 +80,15 @@ impl Surroundings<'_> {
         } else {
             Err(s.refuse("implied by a continuous symmetry".to_owned(), samples))
         }
+    }
+
+    /// Adds to a mirror's doubt what it misses by in units of what any mirror does, where these are finer than the tolerance.
+    pub fn weigh_against_any(&self, symmetry: Symmetry) -> Symmetry {
+        let tolerance = self.params.patch.tolerance;
+        let finer = tolerance.min(SHARE_OF_ANY * self.any_mirror);
+        let finer = finer.max(f64::MIN_POSITIVE);
+        let doubt = symmetry.doubt + symmetry.rms / finer - symmetry.rms / tolerance;
+        Symmetry { doubt, ..symmetry }
     }
 
     /// Adds to a mirror's doubt how high its cluster would be by chance: the height that the same votes

@@ -48,6 +48,17 @@ pub fn any_orthogonal(n: &Vector) -> Vector {
     n.cross(&axis).normalize()
 }
 
+/// `count` unit vectors spread evenly over the sphere (Fibonacci's spiral).
+pub fn directions(count: usize) -> impl Iterator<Item = Vector> {
+    let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+    (0..count).map(move |i| {
+        let z = 1.0 - (2 * i + 1) as f64 / count as f64;
+        let (sin, cos) = (golden * i as f64).sin_cos();
+        let r = (1.0 - z * z).sqrt();
+        Vector::new(r * cos, r * sin, z)
+    })
+}
+
 /// The rotation `exp([omega])` about the axis omega by |omega| radians (Rodrigues).
 pub fn exp_rotation(omega: &Vector) -> Matrix3 {
     nalgebra::Rotation3::new(*omega).into_inner()

@@ -12,8 +12,6 @@ use crate::transform::{Axis, Class, Isometry, Plane};
 const MOST: u32 = 60;
 /// A turn about an axis that is not yet fitted may miss by this share of what any angle does.
 const NEARLY: f64 = 0.6;
-/// Rounds in which an axis is fitted, each with its tolerance, in units of that of mirrors.
-const ROUNDS: [f64; 5] = [3.0, 2.0, 1.5, 1.0, 1.0];
 /// Places that are tried around an axis, over what a turn leaves of them, and steps towards the best.
 const PLACES: u32 = 24;
 const STEPS: usize = 6;
@@ -90,7 +88,7 @@ fn turn_of(whole: &Whole<'_>, axis: &Axis, order: u32) -> Option<Turn> {
     let step = TAU / f64::from(order);
     // About half a turn tells best where the axis is, and is wrong by half a step where the order is.
     let far = f64::from(order / 2) * step;
-    let axis = fitted(whole, axis, far)?;
+    let axis = whole.fitted_axis(axis, far)?;
     let between = whole.missed(&axis.rotation(far + 0.5 * step));
     let telling = |angle: f64| whole.missed(&axis.rotation(angle)) <= TELLING * between;
     if between < LEAST || !telling(step) || !telling(far) {
@@ -99,16 +97,6 @@ fn turn_of(whole: &Whole<'_>, axis: &Axis, order: u32) -> Option<Turn> {
     whole.held(&axis.rotation(far), Class::Proper)?;
     let step = whole.held(&axis.rotation(step), Class::Proper)?;
     Some(Turn { axis, order, step })
-}
-
-/// The axis about which a turn by `angle` fits best.
-fn fitted(whole: &Whole<'_>, axis: &Axis, angle: f64) -> Option<Axis> {
-    let mut axis = *axis;
-    for bound in ROUNDS {
-        let free = whole.step(&axis.rotation(angle), Class::Proper, bound);
-        axis = Axis::of(&free)?;
-    }
-    Some(axis)
 }
 
 /// What else leaves the axis of a `turn` in its place and holds for the whole: the mirror across it, the turn by half a step with that,

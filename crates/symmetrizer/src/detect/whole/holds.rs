@@ -20,16 +20,17 @@ const FACING: f64 = 0.5;
 /// Samples that comparing looks at.
 const COMPARED: usize = 150;
 /// An angle that is no fraction of a turn, nor are its first multiples near one; how many of them stand for any angle.
-const ANY: f64 = 2.399_963;
-const ANGLES: u32 = 6;
+pub const ANY: f64 = 2.399_963;
+pub const ANGLES: u32 = 6;
 /// What any angle misses by at the least, fraction of L: a round shape has every turn, and so none of its own.
 pub const LEAST: f64 = 0.008;
 /// A turn that is the shape's own misses by this share of what others about its axis do, at the most.
 pub const TELLING: f64 = 0.4;
 /// Largest rms residual, in units of the tolerance: a surface that passes by evenly fills it to .58.
-const FILLED: f64 = 0.3;
+pub const FILLED: f64 = 0.3;
 /// Rounds of fitting, each with its tolerance, in units of that of mirrors.
 const ROUNDS: [f64; 4] = [2.5, 1.5, 1.0, 1.0];
+const AXIS_ROUNDS: [f64; 5] = [3.0, 2.0, 1.5, 1.0, 1.0];
 /// Residuals count less from this many times the median on.
 const TYPICAL: f64 = 2.0;
 /// An improper motion is a mirror when one moves the surface to within this of it, rms fraction of L.
@@ -74,7 +75,7 @@ impl<'a> Whole<'a> {
     }
 
     /// The square of the distance of one image.
-    fn miss(&self, t: &Isometry, sample: u32) -> f64 {
+    pub fn miss(&self, t: &Isometry, sample: u32) -> f64 {
         let pair = touch_one(self.surroundings.ground, t, sample, FAR, FACING, None);
         pair.map_or(FAR, |p| p.residual).powi(2)
     }
@@ -113,8 +114,15 @@ impl<'a> Whole<'a> {
             .fold(*t, |t, bound| self.step(&t, class, *bound))
     }
 
+    /// The axis about which a turn by `angle` fits best.
+    pub fn fitted_axis(&self, axis: &Axis, angle: f64) -> Option<Axis> {
+        AXIS_ROUNDS.iter().try_fold(*axis, |axis, bound| {
+            Axis::of(&self.step(&axis.rotation(angle), Class::Proper, *bound))
+        })
+    }
+
     /// One step of fitting, to images within `bound` tolerances.
-    pub fn step(&self, t: &Isometry, class: Class, bound: f64) -> Isometry {
+    fn step(&self, t: &Isometry, class: Class, bound: f64) -> Isometry {
         let pairs = self.touched(t, bound);
         if pairs.is_empty() {
             return *t;
@@ -214,7 +222,7 @@ impl<'a> Whole<'a> {
 }
 
 /// The root of the mean of squares.
-fn root_mean(squares: impl ExactSizeIterator<Item = f64>) -> f64 {
+pub fn root_mean(squares: impl ExactSizeIterator<Item = f64>) -> f64 {
     let count = squares.len().max(1) as f64;
     (squares.sum::<f64>() / count).sqrt()
 }

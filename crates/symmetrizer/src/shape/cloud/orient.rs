@@ -7,7 +7,7 @@
 
 use rayon::prelude::*;
 
-use crate::geom::{Point, PointIndex, Vector};
+use crate::geom::{Point, PointIndex, Vector, directions};
 
 /// Neighbours that a point talks to.
 const NEIGHBOURS: usize = 10;
@@ -155,7 +155,7 @@ fn inwards(points: &[Point], normals: &[Vector], regions: &[u32]) -> Vec<bool> {
     };
     let mut asked = vec![false; points.len()];
     let all: Vec<usize> = (0..points.len()).collect();
-    for direction in directions() {
+    for direction in directions(DIRECTIONS) {
         if let Some(i) = outermost(points, &all, &direction) {
             vote(i, &direction);
             asked[regions[i] as usize] = true;
@@ -167,7 +167,7 @@ fn inwards(points: &[Point], normals: &[Vector], regions: &[u32]) -> Vec<bool> {
         .collect();
     rest.sort_by_key(|&i| (regions[i], i));
     for region in rest.chunk_by(|&i, &j| regions[i] == regions[j]) {
-        for direction in directions() {
+        for direction in directions(DIRECTIONS) {
             if let Some(i) = outermost(points, region, &direction) {
                 vote(i, &direction);
             }
@@ -181,17 +181,6 @@ fn outermost(points: &[Point], of: &[usize], direction: &Vector) -> Option<usize
     of.iter()
         .copied()
         .max_by(|a, b| reach(a).total_cmp(&reach(b)))
-}
-
-/// Unit vectors spread evenly over the sphere (Fibonacci's spiral).
-fn directions() -> impl Iterator<Item = Vector> {
-    let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
-    (0..DIRECTIONS).map(move |i| {
-        let z = 1.0 - (2 * i + 1) as f64 / DIRECTIONS as f64;
-        let (sin, cos) = (golden * i as f64).sin_cos();
-        let r = (1.0 - z * z).sqrt();
-        Vector::new(r * cos, r * sin, z)
-    })
 }
 
 /// Disjoint sets in which each member is on the side of its set or turned against it.
