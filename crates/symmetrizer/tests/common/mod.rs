@@ -1,6 +1,8 @@
 //! What the test files share: models on disk, generated shapes, motions.
 #![allow(dead_code)] // No test file uses all of it.
 
+pub mod warped;
+
 use std::path::{Path, PathBuf};
 
 use rand::{RngExt, SeedableRng};

@@ -3,7 +3,7 @@
 use crate::detect::surroundings::Surroundings;
 use crate::geom::{Matrix3, Vector, any_orthogonal, sorted_eigen};
 use crate::patch::Symmetry;
-use crate::transform::{Axis, Class};
+use crate::transform::{Axis, Class, Isometry};
 
 /// A part that slides about an axis suggests it from this share of the surface on, and so does a motion that holds for as much.
 const SLIDING: f64 = 0.1;
@@ -12,6 +12,8 @@ const HOLDING: f64 = 0.4;
 /// units of the shape's radius.
 const ANGLE: f64 = 0.1;
 const APART: f64 = 0.15;
+/// Smallest sine of the turn that two mirrors make.
+const WIDE: f64 = 0.3;
 /// Axes at the most.
 const MOST: usize = 8;
 /// Of a tensor of inertia with trace 1: how far it takes the axis of a turn from its direction at the most, and by how much the moments
@@ -59,6 +61,22 @@ pub fn suggested(surroundings: &Surroundings<'_>, symmetries: &[Symmetry]) -> Ve
         if !known && askew.norm() <= ASKEW && axes.len() < MOST {
             let only_half = unevenness(&inertia, &axis.direction) > UNEVEN;
             axes.push(Suggested { axis, only_half });
+        }
+    }
+    axes
+}
+
+/// The lines in which two of the `mirrors` meet at an angle that tells where: each line that is like none before it.
+pub fn meeting(surroundings: &Surroundings<'_>, mirrors: &[Isometry]) -> Vec<Axis> {
+    let radius = surroundings.space.radius();
+    let mut axes: Vec<Axis> = Vec::new();
+    for (k, a) in mirrors.iter().enumerate() {
+        for b in &mirrors[k + 1..] {
+            let turn = a.after(b);
+            let sine = (turn.linear - turn.linear.transpose()).norm() / 8.0_f64.sqrt();
+            let axis = Axis::of(&turn).filter(|_| sine > WIDE);
+            let new = axis.filter(|axis| axes.iter().all(|k| !is_same(k, axis, radius)));
+            axes.extend(new.filter(|_| axes.len() < MOST));
         }
     }
     axes

@@ -18,7 +18,7 @@ use crate::error::Result;
 use crate::group::{Within, fixed_together, point_group};
 use crate::patch::{Refusal, Symmetry};
 use crate::slip::Continuous;
-use crate::transform::{Isometry, Kind};
+use crate::transform::{Class, Isometry, Kind};
 use holds::Whole;
 
 /// Isometries that count as one, rms displacement over the surface, fraction of L.
@@ -87,10 +87,14 @@ pub fn revolution(
     }
     let whole = Whole::new(surroundings, clouds);
     let wholes = symmetries.iter().filter(|s| holds::is_whole(s));
-    let missed = wholes.map(|s| whole.missed_by_all(&s.q_from_p));
+    let missed = wholes.clone().map(|s| whole.missed_by_all(&s.q_from_p));
     let most = WORSE * missed.fold(f64::INFINITY, f64::min) + SLACK;
-    let axes = axes::suggested(surroundings, symmetries).into_iter();
-    let found = axes.filter_map(|axis| round::revolution(&whole, &axis.axis, most));
+    let mirrors = wholes.filter(|s| s.class == Class::Mirror);
+    let mirrors: Vec<Isometry> = mirrors.map(|s| s.q_from_p).collect();
+    let suggested = axes::suggested(surroundings, symmetries).into_iter();
+    let meeting = axes::meeting(surroundings, &mirrors).into_iter();
+    let axes = meeting.chain(suggested.map(|s| s.axis));
+    let found = axes.filter_map(|axis| round::revolution(&whole, &axis, most));
     let found = found.filter(|round| round.area_fraction >= known + MORE);
     let round = found.min_by(|a, b| a.rms.total_cmp(&b.rms))?;
     for s in std::mem::take(symmetries) {
