@@ -68,8 +68,9 @@ const PAPER: [Row; 4] = [
 /// Stages of ours that do the work of merging, bends among it, and those of detection; all else but measuring is
 /// contraction.
 const MERGING: [&str; 3] = ["merge", "bend", "straighten"];
-const DETECTION: [&str; 10] = [
-    "detect", "sample", "slip", "probe", "pair", "cluster", "patch", "again", "complete", "whole",
+const DETECTION: [&str; 11] = [
+    "detect", "sample", "slip", "probe", "pair", "cluster", "patch", "again", "complete", "round",
+    "whole",
 ];
 /// What only tells how far it got: measuring, and the symmetries of the result.
 const CHECKING: [&str; 3] = ["measure", "measure again", "detect again"];

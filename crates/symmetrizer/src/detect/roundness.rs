@@ -7,9 +7,9 @@ use crate::patch::Ground;
 use crate::transform::{Isometry, Plane};
 
 /// Mirrors asked,
-const MIRRORS: usize = 32;
+const MIRRORS: usize = 16;
 /// each of about so many samples.
-const SAMPLES: usize = 250;
+const SAMPLES: usize = 160;
 
 /// How far the images of samples lie from the surface, rms, under the median of mirrors through the middle of the shape that are spread
 /// evenly over all directions; fraction of L. Some .07 on animals, .03 on a cube with bumps, .013 to .02 on a roundish lump: what
