@@ -2,15 +2,9 @@
 
 mod common;
 
-use common::warped::{bumpy, ring, warped};
+use common::warped::{bumpy, detected, made_exact, ring, warped};
 use symmetrizer::geom::Vector;
-use symmetrizer::optimize::Step;
 use symmetrizer::shape::Mesh;
-use symmetrizer::{Context, Detected, Params, detect_in, symmetrize};
-
-fn detected(mesh: &Mesh) -> Detected {
-    detect_in(mesh, &Params::default(), &mut Context::new(3)).expect("detection")
-}
 
 /// The name of the group of most of the surface.
 fn group(mesh: &Mesh) -> Option<String> {
@@ -78,12 +72,6 @@ fn round_shapes_have_no_turns_of_their_own() {
 #[test]
 fn a_warped_ratchet_is_made_exact() {
     let mesh = warped(&ratchet());
-    let done = symmetrize(&mesh, &Params::default(), &mut Context::new(3)).expect("a run");
-    let goals = done.report.steps.iter().find_map(|step| match step {
-        Step::Orbits { goals, .. } => Some(goals),
-        _ => None,
-    });
-    let met = goals.and_then(|g| g.iter().find(|g| g.name == "C7"));
-    let [before, after] = met.expect("C7 is made exact").residual;
+    let [before, after] = made_exact(&mesh, "C7");
     assert!(after < 0.125 * before, "{before} -> {after}");
 }

@@ -25,7 +25,7 @@ pub struct PatchParams {
     /// Largest confusion of a mirror's pairs, see [`Symmetry::confusion`](crate::patch::Symmetry::confusion). 0.18, ours.
     pub max_confusion: f64,
     /// Largest doubt about a mirror: the rms residual in units of the tolerance (a surface that merely
-    /// passes by fills the tolerance evenly: .58), twice the confusion, and the share of its height
+    /// passes by fills the tolerance evenly: .58), of roundish shapes in finer ones (decision 0035), twice the confusion, and the share of its height
     /// that comes by chance. 0.8, ours, decision 0013: true mirrors of the models reach .77, false ones
     /// start at .88.
     pub max_doubt: f64,

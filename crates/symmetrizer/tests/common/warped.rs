@@ -1,7 +1,9 @@
 //! Spheres with bumps, and shapes warped as a whole.
 
 use symmetrizer::geom::{Point, Vector};
+use symmetrizer::optimize::Step;
 use symmetrizer::shape::Mesh;
+use symmetrizer::{Context, Detected, Params, detect_in, symmetrize};
 
 use super::{placed, sphere};
 
@@ -59,4 +61,22 @@ pub fn ring(count: u32, height: f64, phase: f64, high: f64, wide: f64) -> Vec<Bu
         .map(|a| Vector::new(across * a.cos(), across * a.sin(), height))
         .map(|at| (at, high, wide))
         .collect()
+}
+
+/// What is found on a mesh by default.
+pub fn detected(mesh: &Mesh) -> Detected {
+    detect_in(mesh, &Params::default(), &mut Context::new(3)).expect("detection")
+}
+
+/// How far apart the copies of the goal `name` are before and after a default run on a mesh, rms; the goal must be among those that
+/// are made exact.
+pub fn made_exact(mesh: &Mesh, name: &str) -> [f64; 2] {
+    let done = symmetrize(mesh, &Params::default(), &mut Context::new(3)).expect("a run");
+    let goals = done.report.steps.iter().find_map(|step| match step {
+        Step::Orbits { goals, .. } => Some(goals),
+        _ => None,
+    });
+    let met = goals.and_then(|g| g.iter().find(|g| g.name == name));
+    met.unwrap_or_else(|| panic!("{name} is not made exact"))
+        .residual
 }

@@ -11,14 +11,15 @@ mod holds;
 mod round;
 mod slopes;
 
+pub use round::revolution;
+
 use crate::context::Context;
 use crate::detect::Cloud;
 use crate::detect::surroundings::{Surroundings, is_same};
 use crate::error::Result;
 use crate::group::{Within, fixed_together, point_group};
-use crate::patch::{Refusal, Symmetry};
-use crate::slip::Continuous;
-use crate::transform::{Class, Isometry, Kind};
+use crate::patch::Symmetry;
+use crate::transform::{Isometry, Kind};
 use holds::Whole;
 
 /// Isometries that count as one, rms displacement over the surface, fraction of L.
@@ -33,9 +34,6 @@ const SLACK: f64 = 1e-3;
 const ROUGH: f64 = 1e-3;
 /// A group is worth the name from this order on.
 const MIN_ORDER: usize = 3;
-
-/// A shape that is round roughly is worth more than a part of it that is so exactly where it is larger by this share of the surface.
-const MORE: f64 = 0.02;
 
 /// Adds to `symmetries` those of the whole surface that are not among them; `clouds` are the votes.
 ///
@@ -70,40 +68,6 @@ pub fn whole(
     }
     members.keep(symmetries, known);
     Ok(())
-}
-
-/// The surface as one of revolution, where it is round as a whole, roughly; `clouds` are the votes. What the turning implies is taken out
-/// of `symmetries`, into the list of what was refused.
-pub fn revolution(
-    surroundings: &Surroundings<'_>,
-    clouds: &[Cloud],
-    symmetries: &mut Vec<Symmetry>,
-    refused: &mut Vec<Refusal>,
-) -> Option<Continuous> {
-    let known = surroundings.continuous.iter();
-    let known = known.map(|c| c.area_fraction).fold(0.0, f64::max);
-    if known + MORE > 1.0 {
-        return None;
-    }
-    let whole = Whole::new(surroundings, clouds);
-    let wholes = symmetries.iter().filter(|s| holds::is_whole(s));
-    let missed = wholes.clone().map(|s| whole.missed_by_all(&s.q_from_p));
-    let most = WORSE * missed.fold(f64::INFINITY, f64::min) + SLACK;
-    let mirrors = wholes.filter(|s| s.class == Class::Mirror);
-    let mirrors: Vec<Isometry> = mirrors.map(|s| s.q_from_p).collect();
-    let suggested = axes::suggested(surroundings, symmetries).into_iter();
-    let meeting = axes::meeting(surroundings, &mirrors).into_iter();
-    let axes = meeting.chain(suggested.map(|s| s.axis));
-    let found = axes.filter_map(|axis| round::revolution(&whole, &axis, most));
-    let found = found.filter(|round| round.area_fraction >= known + MORE);
-    let round = found.min_by(|a, b| a.rms.total_cmp(&b.rms))?;
-    for s in std::mem::take(symmetries) {
-        match surroundings.more_than(std::slice::from_ref(&round), s) {
-            Err(refusal) => refused.push(*refusal),
-            Ok(s) => symmetries.push(s),
-        }
-    }
-    Some(round)
 }
 
 /// A symmetry of the whole.

@@ -3,20 +3,59 @@
 
 use rayon::prelude::*;
 
-use crate::detect::surroundings::SHARE_OF_ANY;
-use crate::detect::whole::holds::{ANGLES, ANY, FILLED, LEAST, Whole, root_mean};
+use crate::detect::Cloud;
+use crate::detect::surroundings::{SHARE_OF_ANY, Surroundings};
+use crate::detect::whole::holds::{ANGLES, ANY, FILLED, LEAST, Whole, is_whole, root_mean};
 use crate::detect::whole::slopes::Slopes;
+use crate::detect::whole::{SLACK, WORSE, axes};
+use crate::patch::{Refusal, Symmetry};
 use crate::slip::{Continuous, Slip};
-use crate::transform::{Axis, Isometry};
+use crate::transform::{Axis, Class, Isometry};
 
 /// What is round is at least this share of the surface: there may be a handle or a spout.
 const ROUND: f64 = 0.9;
+/// A shape that is round roughly is worth more than a part of it that is so exactly where it is larger by this share of the surface.
+const MORE: f64 = 0.02;
 /// An axis that is not yet fitted may miss by so many times [`LEAST`], what is not round among it.
 const NEARLY: f64 = 3.0;
 
+/// The surface as one of revolution, where it is round as a whole, roughly; `clouds` are the votes. What the turning implies is taken out
+/// of `symmetries`, into the list of what was refused.
+pub fn revolution(
+    surroundings: &Surroundings<'_>,
+    clouds: &[Cloud],
+    symmetries: &mut Vec<Symmetry>,
+    refused: &mut Vec<Refusal>,
+) -> Option<Continuous> {
+    let known = surroundings.continuous.iter();
+    let known = known.map(|c| c.area_fraction).fold(0.0, f64::max);
+    if known + MORE > 1.0 {
+        return None;
+    }
+    let whole = Whole::new(surroundings, clouds);
+    let wholes = symmetries.iter().filter(|s| is_whole(s));
+    let missed = wholes.clone().map(|s| whole.missed_by_all(&s.q_from_p));
+    let most = WORSE * missed.fold(f64::INFINITY, f64::min) + SLACK;
+    let mirrors = wholes.filter(|s| s.class == Class::Mirror);
+    let mirrors: Vec<Isometry> = mirrors.map(|s| s.q_from_p).collect();
+    let suggested = axes::suggested(surroundings, symmetries).into_iter();
+    let meeting = axes::meeting(surroundings, &mirrors).into_iter();
+    let axes = meeting.chain(suggested.map(|s| s.axis));
+    let found = axes.filter_map(|axis| about(&whole, &axis, most));
+    let found = found.filter(|round| round.area_fraction >= known + MORE);
+    let round = found.min_by(|a, b| a.rms.total_cmp(&b.rms))?;
+    for s in std::mem::take(symmetries) {
+        match surroundings.more_than(std::slice::from_ref(&round), s) {
+            Err(refusal) => refused.push(*refusal),
+            Ok(s) => symmetries.push(s),
+        }
+    }
+    Some(round)
+}
+
 /// The surface as one of revolution about an axis, which is fitted, that misses by `most` at the most, fraction of L; `None` where it
 /// is none, or where nothing tells this axis from others.
-pub fn revolution(whole: &Whole<'_>, axis: &Axis, most: f64) -> Option<Continuous> {
+fn about(whole: &Whole<'_>, axis: &Axis, most: f64) -> Option<Continuous> {
     let surroundings = whole.surroundings;
     if whole.any_missed(axis, &Isometry::identity()) > NEARLY * LEAST {
         return None;

@@ -1,6 +1,7 @@
 //! How a surface that is nearly one of revolution rises and falls as it is turned: a warp does so gently over long ways, relief, flutes
 //! and knurls steeply or over short ones.
 
+use crate::detect::whole::holds::root_mean;
 use crate::geom::PointIndex;
 use crate::patch::Ground;
 use crate::sample::Sample;
@@ -58,8 +59,7 @@ impl<'a> Slopes<'a> {
 
     /// The rms slope of `samples`, radians.
     pub fn rms(&self, samples: &[u32]) -> f64 {
-        let squares = samples.iter().map(|&i| self.list[i as usize].powi(2));
-        (squares.sum::<f64>() / samples.len().max(1) as f64).sqrt()
+        root_mean(samples.iter().map(|&i| self.list[i as usize].powi(2)))
     }
 
     /// The size below which a share of the slopes of `samples` lies; 0 of none.
